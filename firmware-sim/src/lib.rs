@@ -1,0 +1,1 @@
+//! Simulated device firmware, byte-exact, with its own clock and faults.

@@ -1,0 +1,1 @@
+//! Simulated devices behind the rig's ports, and the scenario runner.

@@ -1,0 +1,1 @@
+//! Transports, codecs, clocks and the servo bus: bytes and units, no meaning.

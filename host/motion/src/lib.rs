@@ -1,0 +1,1 @@
+//! Curves, kinetics, figures and chains: the pure mathematics of posing.

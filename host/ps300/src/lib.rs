@@ -1,0 +1,1 @@
+//! Function network, command language and display structure.

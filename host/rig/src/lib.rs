@@ -1,0 +1,1 @@
+//! Commands in, snapshots out: where the other crates meet.

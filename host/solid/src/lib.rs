@@ -1,0 +1,1 @@
+//! Polygon solids: primitives, revolution, closedness.

@@ -1,0 +1,1 @@
+//! Pictures of the rig, with and without a window.
