@@ -1,0 +1,231 @@
+//! Everything anybody can ask of the rig.
+//!
+//! The window, the command line, the scenarios, the function network's parameters and the journal all send
+//! these values and nothing else. They are plain data: the journal stores them as JSON, one a line.
+
+use serde::{Deserialize, Serialize};
+
+/// One request. Requests that cannot be met leave a [`crate::Note`] and change nothing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Command {
+    /// Text in the network's command language, executed at once and kept in the document.
+    Network(String),
+    /// A hand on a simulated device: it answers with bytes, as the real one would.
+    Touch {
+        /// The device's name as in [`crate::DeviceView::name`].
+        device: String,
+        /// What the hand does.
+        touch: Touch,
+    },
+    /// Posing with the cursor line.
+    Pose(PoseCommand),
+    /// A change of the show that can be undone.
+    Edit(EditCommand),
+    /// Takes back the last change.
+    Undo,
+    /// Makes the last change that was taken back again.
+    Redo,
+    /// Where in time the figure on screen is.
+    Transport(TransportCommand),
+    /// From where the figure is looked at.
+    View(ViewCommand),
+    /// What the servo puppet does.
+    Puppet(PuppetCommand),
+    /// Writes the show to its folder.
+    Save,
+}
+
+/// Hands on a simulated control, in the device's own numbering.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Touch {
+    /// Turns dial `control` by `turns` (clockwise positive).
+    Dial {
+        /// Dial number as the device counts, from 0.
+        control: u8,
+        /// Turns; 1.0 is a full revolution.
+        turns: f64,
+    },
+    /// Presses or lets go of a key.
+    Button {
+        /// Key number as the device counts, from 0.
+        control: u8,
+        /// Whether it is now down.
+        down: bool,
+    },
+    /// Moves pen or puck; `None` lifts it out of the tablet's reach.
+    Tablet {
+        /// Position, each axis −1…1, y up; `None` when away.
+        at: Option<[f64; 2]>,
+        /// Buttons held, one bit each, lowest is button 1.
+        buttons: u8,
+    },
+    /// Takes the cable out (`false`) or puts it back (`true`).
+    Cable {
+        /// Whether the cable is in.
+        connected: bool,
+    },
+}
+
+/// Which of the two points of a link's sphere the cursor line meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// Towards the viewer.
+    Near,
+    /// Away from the viewer.
+    Far,
+}
+
+/// Posing a figure link by link (thesis S3.4–S3.6).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PoseCommand {
+    /// Moves the cursor in the front view; the selected link follows. −1…1, y up, before the view's scale.
+    Cursor([f64; 2]),
+    /// Chooses between the two solutions inside the circle.
+    Side(Side),
+    /// Fixes the selected link where it is and selects the next one.
+    Place,
+    /// Selects a link by its place in the figure's order.
+    Select(u16),
+    /// Selects the next (`1`) or an earlier (`-1`) link, staying inside the figure.
+    Step(i32),
+    /// Turns the selected link about its own axis, radians, unlimited.
+    Twist {
+        /// Added to the twist.
+        by_rad: f64,
+    },
+    /// Sets the selected link's direction outright (world axes; need not be unit).
+    Direction([f64; 3]),
+    /// Moves the figure's root, metres.
+    Root([f64; 3]),
+    /// Takes over the pose the clip shows at the present time.
+    FromClip,
+}
+
+/// A change of the show. Every variant is one step of undo; repeated ones of one gesture are merged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EditCommand {
+    /// Stores the pose on screen as a key at `secs` (replaces a key at the same time).
+    StoreKey {
+        /// Animation time.
+        secs: f64,
+    },
+    /// Deletes a key.
+    DeleteKey {
+        /// Its index, earliest first.
+        key: usize,
+    },
+    /// Gives a key another time; it may not pass its neighbours.
+    MoveKey {
+        /// Its index, earliest first.
+        key: usize,
+        /// The new animation time.
+        secs: f64,
+    },
+    /// Copies a key to another time.
+    CopyKey {
+        /// Index of the key copied.
+        key: usize,
+        /// Animation time of the copy.
+        secs: f64,
+    },
+    /// Adds to a coefficient of the kinetic spline: changes timing, never the path.
+    Kinetics {
+        /// Coefficient index; the first and last are pinned.
+        coefficient: usize,
+        /// Added to it, in keys.
+        by: f64,
+    },
+    /// Chooses how key times become the kinetic spline.
+    KineticsMode(KineticsMode),
+    /// Removes all kinetic adjustments.
+    ResetKinetics,
+    /// Chooses the clip being edited.
+    ChooseClip(String),
+}
+
+/// How key times become a kinetic spline; see `motion::kinetics`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum KineticsMode {
+    /// Natural cubic: smoothest, may run backwards.
+    Natural,
+    /// The same, filtered so that time never runs backwards.
+    Monotone,
+    /// Straight from key to key.
+    Linear,
+}
+
+/// Playing on screen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TransportCommand {
+    /// Runs time.
+    Play,
+    /// Stops time where it is.
+    Pause,
+    /// Play if paused, else pause.
+    Toggle,
+    /// Goes to a time, clamped to the clip.
+    Seek {
+        /// Animation time.
+        secs: f64,
+    },
+    /// Moves time.
+    Nudge {
+        /// Added to the animation time.
+        by_secs: f64,
+    },
+    /// Whether playing starts over at the end.
+    Loop(bool),
+    /// Loop on if off, off if on.
+    ToggleLoop,
+    /// To the next (`1`) or previous (`-1`) key.
+    Key(i32),
+    /// Playing speed; 1 is real time.
+    Speed(f64),
+}
+
+/// Changes the view of the figure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ViewCommand {
+    /// Turns the view.
+    Turn {
+        /// About the vertical axis, radians.
+        azimuth_by_rad: f64,
+        /// About the screen's horizontal axis, radians.
+        elevation_by_rad: f64,
+    },
+    /// Enlarges (`> 1`) or shrinks the picture.
+    Zoom {
+        /// Factor on the scale.
+        by: f64,
+    },
+    /// Back to the front view that holds the whole figure.
+    Reset,
+}
+
+/// Orders to the puppet's player.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PuppetCommand {
+    /// Reads where every servo is, pins the goals there, and turns torque on.
+    Arm,
+    /// Plays the clip from the present animation time, after approaching its pose softly.
+    Play,
+    /// Follows the figure on screen, live.
+    Follow,
+    /// Stays where it is.
+    Hold,
+    /// Slows down and lets go.
+    Release,
+    /// Stops at once and latches until [`PuppetCommand::Reset`]. Always works.
+    Stop,
+    /// Leaves the faulted state; torque stays off.
+    Reset,
+}

@@ -1,0 +1,294 @@
+//! What can be seen of the rig after one step: immutable, cheap to pass around.
+//!
+//! Windows, films, scenarios and tests read snapshots and nothing else.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use motion::clip::Clip;
+use motion::figure::{Figure, FigurePose, Placed};
+use ps300::display::{DisplayList, Stroke};
+
+/// The rig as it stood at the end of one step.
+#[derive(Clone, Debug, Default)]
+pub struct Snapshot {
+    /// Machine time since the rig began, seconds.
+    pub at_secs: f64,
+    /// Number of steps taken so far.
+    pub step: u64,
+    /// The show's name.
+    pub show: String,
+    /// Whether there are changes that are not on disk.
+    pub unsaved: bool,
+    /// The figure on screen, if the show has one.
+    pub figure: Option<FigureView>,
+    /// The clip being edited in its playable form; `None` while it has no key.
+    pub clip: Option<Arc<Clip>>,
+    /// The clip's name.
+    pub clip_name: String,
+    /// Keys of the clip, earliest first.
+    pub keys: Vec<KeyView>,
+    /// The kinetic curve of the clip.
+    pub kinetics: KineticsView,
+    /// Where in time the figure is.
+    pub transport: TransportView,
+    /// From where the figure is looked at.
+    pub view: ViewState,
+    /// Vectors of the network's own display structures, world axes.
+    pub display: Arc<DisplayList>,
+    /// The desk: dials and keys with their labels.
+    pub desk: DeskView,
+    /// The servo puppet, if the show has one.
+    pub puppet: Option<PuppetView>,
+    /// Input devices, in order of their names.
+    pub devices: Vec<DeviceView>,
+    /// What [`crate::Command::Undo`] would take back, in words.
+    pub undo: Option<String>,
+    /// What [`crate::Command::Redo`] would make again, in words.
+    pub redo: Option<String>,
+    /// The latest remarks, oldest first, a bounded number.
+    pub notes: Vec<Note>,
+}
+
+/// The posed figure.
+#[derive(Clone, Debug)]
+pub struct FigureView {
+    /// Links, names, tree.
+    pub figure: Arc<Figure>,
+    /// What each link looks like, in link axes (z along the link), one entry per link in the figure's order.
+    pub shapes: Arc<Vec<Vec<Stroke>>>,
+    /// The pose on screen.
+    pub pose: FigurePose,
+    /// The same, placed in the world.
+    pub placed: Vec<Placed>,
+    /// The link the cursor moves, by its place in the figure's order.
+    pub selected: Option<u16>,
+    /// The cursor in the front view, −1…1, y up, if a tablet is in use.
+    pub cursor: Option<DVec2>,
+    /// Both ends the cursor offers for the selected link (near, far), world axes; empty outside posing.
+    pub candidates: Vec<DVec3>,
+    /// Whether the pose has been changed by hand since it was last a pose of the clip.
+    pub posing: bool,
+}
+
+/// A key of the clip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeyView {
+    /// Animation time.
+    pub secs: f64,
+    /// Whether it is the selected one.
+    pub selected: bool,
+}
+
+/// The kinetic spline as drawn above the transport.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct KineticsView {
+    /// `natural`, `monotone` or `linear`.
+    pub mode: String,
+    /// Samples (animation time, key coordinate), evenly spaced in time.
+    pub curve: Vec<[f64; 2]>,
+    /// Control coefficients as (Greville time, key coordinate); empty for modes without.
+    pub coefficients: Vec<[f64; 2]>,
+    /// The selected coefficient.
+    pub selected: Option<usize>,
+    /// Stretches of time in which the motion runs backwards.
+    pub reversals: Vec<[f64; 2]>,
+}
+
+/// Where in time the figure is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransportView {
+    /// Animation time shown.
+    pub secs: f64,
+    /// First key.
+    pub start_secs: f64,
+    /// Last key.
+    pub end_secs: f64,
+    /// Whether time runs.
+    pub playing: bool,
+    /// Whether playing starts over at the end.
+    pub looped: bool,
+    /// Playing speed; 1 is real time.
+    pub speed: f64,
+}
+
+impl Default for TransportView {
+    fn default() -> Self {
+        Self {
+            secs: 0.0,
+            start_secs: 0.0,
+            end_secs: 0.0,
+            playing: false,
+            looped: false,
+            speed: 1.0,
+        }
+    }
+}
+
+/// From where the figure is looked at (parallel projection).
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewState {
+    /// Turn about the vertical axis, radians; 0 looks along −z.
+    pub azimuth_rad: f64,
+    /// Turn about the screen's horizontal axis, radians.
+    pub elevation_rad: f64,
+    /// Picture half-heights per metre: a point 1/scale above the centre is at y = 1.
+    pub scale: f64,
+    /// World point in the middle of the picture.
+    pub centre: DVec3,
+}
+
+impl Default for ViewState {
+    fn default() -> Self {
+        Self {
+            azimuth_rad: 0.0,
+            elevation_rad: 0.0,
+            scale: 1.0,
+            centre: DVec3::ZERO,
+        }
+    }
+}
+
+/// Eight dials and twelve keys with their label displays, as the network drives them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DeskView {
+    /// Dials 1–8.
+    pub dials: [DialView; 8],
+    /// Keys F1–F12.
+    pub keys: [DeskKeyView; 12],
+    /// The device a hand on the desk touches, if one is simulated.
+    pub simulated_device: Option<String>,
+}
+
+/// One dial of the desk.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DialView {
+    /// Its label, at most eight characters.
+    pub label: String,
+    /// How far it has been turned since the rig began, turns.
+    pub turns: f64,
+    /// Whether it moved within the last half second.
+    pub live: bool,
+}
+
+/// One key of the desk.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DeskKeyView {
+    /// Its label, at most eight characters.
+    pub label: String,
+    /// Whether its lamp is lit.
+    pub lit: bool,
+    /// Whether it is held down.
+    pub down: bool,
+}
+
+/// The servo puppet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PuppetView {
+    /// The profile's name.
+    pub name: String,
+    /// What the player is doing.
+    pub state: PuppetState,
+    /// Why it is faulted and what to do, when it is.
+    pub fault: Option<String>,
+    /// Joints in the profile's order.
+    pub joints: Vec<JointView>,
+    /// Clip time being played, if it is playing.
+    pub clip_secs: Option<f64>,
+    /// Answers that came too late and were thrown away.
+    pub stale_discarded: u64,
+    /// Goals that the limiter changed or refused.
+    pub interventions: u64,
+    /// Control cycles that started late.
+    pub late_cycles: u64,
+}
+
+/// What the player is doing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PuppetState {
+    /// No torque.
+    #[default]
+    Released,
+    /// Reading, pinning goals, turning torque on.
+    Arming,
+    /// Torque on, standing still.
+    Holding,
+    /// Moving to a pose or along a clip.
+    Playing,
+    /// Stopped for a reason; waits for a reset.
+    Faulted,
+}
+
+/// One servo joint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointView {
+    /// The joint's name in the puppet profile.
+    pub name: String,
+    /// What was last asked of it, radians; `None` before the first goal.
+    pub goal_rad: Option<f64>,
+    /// Where it last said it was, radians; `None` before the first answer.
+    pub measured_rad: Option<f64>,
+    /// Age of `measured_rad`, seconds.
+    pub age_secs: f64,
+    /// Range allowed by the profile, radians.
+    pub range_rad: [f64; 2],
+    /// Temperature in °C, when read.
+    pub temperature_c: Option<f64>,
+    /// Supply voltage, when read.
+    pub voltage_v: Option<f64>,
+    /// Whether it answers.
+    pub present: bool,
+    /// A hardware error it reports, in words.
+    pub error: Option<String>,
+}
+
+/// An input device.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DeviceView {
+    /// The name it goes by in the rig, also where to touch it when simulated.
+    pub name: String,
+    /// Profile it was matched to.
+    pub profile: String,
+    /// Address it was opened at.
+    pub address: String,
+    /// How it is.
+    pub health: DeviceHealth,
+    /// Events decoded so far.
+    pub events: u64,
+    /// Malformed bytes or reports skipped so far.
+    pub rejected: u64,
+}
+
+/// How an input device is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DeviceHealth {
+    /// Opened, has not answered yet.
+    #[default]
+    Starting,
+    /// Answers.
+    Present,
+    /// Gone; looked for again.
+    Lost,
+}
+
+/// A remark for the person at the rig.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Note {
+    /// Machine time, seconds.
+    pub at_secs: f64,
+    /// How much it matters.
+    pub level: NoteLevel,
+    /// The remark: what happened and what to do.
+    pub text: String,
+}
+
+/// How much a remark matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NoteLevel {
+    /// Good to know.
+    Info,
+    /// Something was refused or adjusted.
+    Warning,
+    /// Something failed.
+    Error,
+}
