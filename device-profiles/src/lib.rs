@@ -1,1 +1,26 @@
-//! Facts about hardware as data: servos, puppets, tablets, knob boxes.
+//! Facts about hardware as data: servos, puppets, knob boxes, tablets.
+//!
+//! Knows: the shape of the TOML files beside `src/`, how to read them (an embedded copy and the user's own
+//! folder), and what makes one wrong. Must not know: bytes on a wire, units of anybody's screen, or any
+//! Rust path; a profile outlives the code that reads it. The host's drivers and the simulated firmware share
+//! this crate and nothing else.
+//!
+//! Start at [`Profiles`], then [`ServoProfile`] and [`PuppetProfile`].
+
+mod error;
+mod knobs;
+mod profiles;
+mod puppet;
+mod read;
+mod servo;
+mod status;
+mod tablet;
+
+pub use error::ProfileError;
+pub use knobs::{KnobsProfile, Labels};
+pub use profiles::{Kind, Profiles};
+pub use puppet::{PuppetBus, PuppetGroup, PuppetJoint, PuppetProfile};
+pub use read::read_file;
+pub use servo::{Access, Area, Register, ServoProfile, ServoProtocol, Unit};
+pub use status::Status;
+pub use tablet::{Identify, SerialTool, Surface, TabletProfile, Tool};

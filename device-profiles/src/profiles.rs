@@ -1,0 +1,174 @@
+//! All profiles at hand: the embedded ones, and over them the user's own.
+
+use crate::read::{key_of, parse};
+use crate::{KnobsProfile, ProfileError, PuppetProfile, ServoProfile, TabletProfile};
+use include_dir::{Dir, include_dir};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+static SERVOS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/servos");
+static PUPPETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/puppets");
+static KNOBS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/knobs");
+static TABLETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/tablets");
+
+/// Every profile the program can use, by key, in alphabetical order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Profiles {
+    servos: BTreeMap<String, ServoProfile>,
+    puppets: BTreeMap<String, PuppetProfile>,
+    knobs: BTreeMap<String, KnobsProfile>,
+    tablets: BTreeMap<String, TabletProfile>,
+}
+
+/// A profile of any kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// A servo model.
+    Servo(Box<ServoProfile>),
+    /// A puppet.
+    Puppet(Box<PuppetProfile>),
+    /// A knob box.
+    Knobs(Box<KnobsProfile>),
+    /// A tablet.
+    Tablet(Box<TabletProfile>),
+}
+
+impl Profiles {
+    /// The profiles that are compiled in.
+    pub fn builtin() -> Self {
+        let mut all = Self::default();
+        for folder in [&SERVOS, &PUPPETS, &KNOBS, &TABLETS] {
+            all.add_embedded(folder);
+        }
+        all
+    }
+
+    fn add_embedded(&mut self, folder: &Dir<'_>) {
+        for file in folder
+            .files()
+            .filter(|f| f.path().extension().is_some_and(|e| e == "toml"))
+        {
+            let text = file
+                .contents_utf8()
+                .expect("embedded profiles are UTF-8: tests/data.rs reads them");
+            let profile = parse(&file.path().display().to_string(), &key_of(file.path()), text)
+                .expect("embedded profiles are right: tests/data.rs reads them");
+            self.add(profile);
+        }
+        for inner in folder.dirs() {
+            self.add_embedded(inner);
+        }
+    }
+
+    /// Adds every `.toml` below `folder`; one with an embedded profile's key takes its place.
+    /// A folder that does not exist adds nothing; every wrong file is reported, not only the first.
+    pub fn with_user_folder(mut self, folder: &Path) -> Result<Self, Vec<ProfileError>> {
+        let mut errors = Vec::new();
+        let mut files = Vec::new();
+        if folder.exists() {
+            collect(folder, &mut files, &mut errors);
+        }
+        for path in files {
+            match crate::read_file(&path) {
+                Ok(profile) => self.add(profile),
+                Err(found) => errors.extend(found),
+            }
+        }
+        if errors.is_empty() { Ok(self) } else { Err(errors) }
+    }
+
+    /// Adds one profile, in place of another with its key.
+    pub fn add(&mut self, profile: Kind) {
+        match profile {
+            Kind::Servo(p) => drop(self.servos.insert(p.key.clone(), *p)),
+            Kind::Puppet(p) => drop(self.puppets.insert(p.key.clone(), *p)),
+            Kind::Knobs(p) => drop(self.knobs.insert(p.key.clone(), *p)),
+            Kind::Tablet(p) => drop(self.tablets.insert(p.key.clone(), *p)),
+        }
+    }
+
+    /// The servo whose key or name this is, whatever the case of its letters.
+    pub fn servo(&self, name: &str) -> Result<&ServoProfile, ProfileError> {
+        find(&self.servos, "servo", name, |p| &p.name)
+    }
+
+    /// The puppet whose key or name this is.
+    pub fn puppet(&self, name: &str) -> Result<&PuppetProfile, ProfileError> {
+        find(&self.puppets, "puppet", name, |p| &p.name)
+    }
+
+    /// The knob box whose key or name this is.
+    pub fn knobs(&self, name: &str) -> Result<&KnobsProfile, ProfileError> {
+        find(&self.knobs, "knobs", name, |p| &p.name)
+    }
+
+    /// The tablet whose key or name this is.
+    pub fn tablet(&self, name: &str) -> Result<&TabletProfile, ProfileError> {
+        find(&self.tablets, "tablet", name, |p| &p.name)
+    }
+
+    /// The servo that answers a ping with this model number.
+    pub fn servo_by_model(&self, model_number: u16) -> Option<&ServoProfile> {
+        self.servos().find(|p| p.model_number == model_number)
+    }
+
+    /// All servos, by key.
+    pub fn servos(&self) -> impl Iterator<Item = &ServoProfile> {
+        self.servos.values()
+    }
+
+    /// All puppets, by key.
+    pub fn puppets(&self) -> impl Iterator<Item = &PuppetProfile> {
+        self.puppets.values()
+    }
+
+    /// All knob boxes, by key.
+    pub fn all_knobs(&self) -> impl Iterator<Item = &KnobsProfile> {
+        self.knobs.values()
+    }
+
+    /// All tablets, by key.
+    pub fn tablets(&self) -> impl Iterator<Item = &TabletProfile> {
+        self.tablets.values()
+    }
+}
+
+fn find<'a, P>(
+    among: &'a BTreeMap<String, P>,
+    kind: &'static str,
+    name: &str,
+    title: impl Fn(&P) -> &str,
+) -> Result<&'a P, ProfileError> {
+    let by_title = || among.values().find(|p| title(p).eq_ignore_ascii_case(name));
+    among
+        .get(&name.to_lowercase())
+        .or_else(by_title)
+        .ok_or_else(|| ProfileError::Absent {
+            kind,
+            name: name.to_owned(),
+            known: among.keys().cloned().collect::<Vec<_>>().join(", "),
+        })
+}
+
+/// Every `.toml` below `folder`, in alphabetical order, so that which of two equal keys wins is always the same.
+fn collect(folder: &Path, files: &mut Vec<PathBuf>, errors: &mut Vec<ProfileError>) {
+    let entries = match std::fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(e) => {
+            errors.push(ProfileError::Unreadable {
+                path: folder.to_owned(),
+                why: e.to_string(),
+            });
+            return;
+        }
+    };
+    let mut paths: Vec<_> = entries.filter_map(|e| e.ok().map(|e| e.path())).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            collect(&path, files, errors);
+        } else if path.extension().is_some_and(|e| e == "toml") {
+            files.push(path);
+        }
+    }
+}
