@@ -1,1 +1,14 @@
 //! Transports, codecs, clocks and the servo bus: bytes and units, no meaning.
+//!
+//! Knows: how bytes come and go ([`transport`]), what they say (`codec`, `servo::framing`), how counts become
+//! radians and which goals a servo may get (`servo`), and what time it is ([`clock`]). Must not know: figures,
+//! networks, shows, or what anybody wants with a knob. Codecs and framing must not know transports either:
+//! they run as well on a file of bytes.
+//!
+//! Start at [`transport::Transport`].
+
+pub mod clock;
+pub mod transport;
+
+pub use clock::{Clock, Instant, MonotonicClock, VirtualClock};
+pub use transport::{Boundary, Transport, TransportError};

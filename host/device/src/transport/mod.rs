@@ -1,0 +1,78 @@
+//! Moving bytes. A transport knows an address and whether the far end is still there, and no format.
+
+mod error;
+pub mod memory;
+
+pub use error::TransportError;
+
+use crate::clock::{Clock, Instant};
+use std::time::Duration;
+
+/// What one [`Transport::read`] returns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// Any piece of a stream (serial, TCP).
+    Stream,
+    /// Exactly one report (HID).
+    Reports,
+}
+
+/// How long the default [`Transport::wait`] sleeps between looks: well below a byte's time at 9600 baud
+/// (1 ms) and near the shortest sleep an ordinary kernel keeps.
+pub const WAIT_STEP: Duration = Duration::from_micros(100);
+
+/// One end of a line.
+pub trait Transport: Send {
+    /// Whether one `read` is one report or any piece of a stream.
+    fn boundary(&self) -> Boundary;
+
+    /// Whatever has arrived; 0 means nothing yet. Never blocks.
+    fn read(&mut self, buffer: &mut [u8]) -> Result<usize, TransportError>;
+
+    /// Sends all of `bytes`.
+    fn write(&mut self, bytes: &[u8]) -> Result<(), TransportError>;
+
+    /// Changes the line speed; a transport without one agrees and does nothing.
+    fn set_baud(&mut self, _baud: u32) -> Result<(), TransportError> {
+        Ok(())
+    }
+
+    /// Returns at `until`, or earlier when bytes are known to be there (or the far end to be gone).
+    /// The default only sleeps, in steps, asking [`Transport::ready`] between them.
+    fn wait(&mut self, clock: &dyn Clock, until: Instant) {
+        while clock.now() < until && !self.ready() {
+            clock.sleep_until(until.min(clock.now().after(WAIT_STEP)));
+        }
+    }
+
+    /// Whether bytes are known to be waiting; false also means "cannot tell".
+    fn ready(&mut self) -> bool {
+        false
+    }
+}
+
+impl Transport for Box<dyn Transport> {
+    fn boundary(&self) -> Boundary {
+        (**self).boundary()
+    }
+
+    fn read(&mut self, buffer: &mut [u8]) -> Result<usize, TransportError> {
+        (**self).read(buffer)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
+        (**self).write(bytes)
+    }
+
+    fn set_baud(&mut self, baud: u32) -> Result<(), TransportError> {
+        (**self).set_baud(baud)
+    }
+
+    fn wait(&mut self, clock: &dyn Clock, until: Instant) {
+        (**self).wait(clock, until);
+    }
+
+    fn ready(&mut self) -> bool {
+        (**self).ready()
+    }
+}
