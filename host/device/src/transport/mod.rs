@@ -1,8 +1,15 @@
 //! Moving bytes. A transport knows an address and whether the far end is still there, and no format.
 
+pub mod address;
+mod descriptor;
 mod error;
 pub mod memory;
+pub mod ports;
+pub mod pty;
+pub mod serial;
+pub mod tcp;
 
+pub use address::{Address, open};
 pub use error::TransportError;
 
 use crate::clock::{Clock, Instant};
