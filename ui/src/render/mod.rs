@@ -1,0 +1,23 @@
+//! Pictures of the rig, with or without a window.
+//!
+//! [`stage`] makes a [`scene`] of a snapshot; [`flat`] projects it; [`raster`] paints it on the processor,
+//! [`lines`] on a graphics card. [`frame`] and [`sheet`] compose pictures, [`film`] writes them. Nothing
+//! here knows egui.
+
+pub mod camera;
+pub mod figure;
+pub mod film;
+pub mod flat;
+pub mod frame;
+pub mod lines;
+pub mod offscreen;
+pub mod palette;
+pub mod picture;
+pub mod raster;
+pub mod scene;
+pub mod sheet;
+pub mod stage;
+pub mod text;
+pub mod theme;
+pub mod timeline;
+pub mod trail;

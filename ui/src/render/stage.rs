@@ -1,0 +1,216 @@
+//! From a snapshot of the rig to a scene: floor, ghosts, trails, the figure, the cursor.
+
+use glam::{DVec2, DVec3};
+use rig::{FigureView, Snapshot, ViewState};
+
+use super::camera::Camera;
+use super::figure::{self, Style};
+use super::scene::{Ink, Layer, Mark, Place, Scene};
+use super::theme;
+use super::trail::{self, Samples};
+
+/// What is drawn beside the figure itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Poses before and after.
+    pub onion: bool,
+    /// How many on each side.
+    pub onion_count: u32,
+    /// Time between them, seconds, above 0.
+    pub onion_step_secs: f64,
+    /// Trajectories with equal-time ticks.
+    pub ticks: bool,
+    /// Time between ticks, seconds, above 0.
+    pub tick_secs: f64,
+    /// A grid under the feet.
+    pub floor: bool,
+    /// The selection, its name, the cursor and what it offers; off for films.
+    pub editing: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Look {
+            onion: true,
+            onion_count: 3,
+            onion_step_secs: 0.12,
+            ticks: true,
+            tick_secs: 1.0 / 24.0,
+            floor: true,
+            editing: true,
+        }
+    }
+}
+
+impl Look {
+    /// As films show it: nothing that only the person at the desk needs.
+    pub fn film() -> Look {
+        Look {
+            editing: false,
+            ..Look::default()
+        }
+    }
+}
+
+/// The camera of a rig's view.
+pub fn camera(view: &ViewState) -> Camera {
+    let half_height = if view.scale > 1e-9 { 1.0 / view.scale } else { 1.0 };
+    Camera::turned(view.azimuth_rad, view.elevation_rad, view.centre, half_height)
+}
+
+/// Everything the front view shows; the side view is [`Scene::side`] of it.
+pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
+    let mut scene = Scene::new(camera(&seen.view));
+    let samples = seen.clip.as_ref().map(|clip| Samples::of(clip, look.tick_secs));
+    let shown = seen.figure.as_ref();
+    if look.floor {
+        let lowest = samples
+            .as_ref()
+            .and_then(Samples::lowest)
+            .or_else(|| trail::lowest(shown.iter().flat_map(|figure| &figure.placed)));
+        add_floor(&mut scene, lowest.unwrap_or(0.0));
+    }
+    if let (true, Some(clip), Some(figure)) = (look.onion, &seen.clip, shown) {
+        let steps = (look.onion_count, look.onion_step_secs);
+        trail::add_onion(&mut scene, clip, &figure.shapes, seen.transport.secs, steps);
+    }
+    if let (true, Some(samples), Some(figure)) = (look.ticks, &samples, shown) {
+        add_trails(&mut scene, samples, figure, look, &seen.keys);
+    }
+    for vector in &seen.display.strokes {
+        let ink = Ink::new(figure::vector_colour(vector), Layer::Figure);
+        scene.stroke(vector.from, vector.to, theme::WIDTH_GHOST, ink);
+    }
+    if let Some(figure) = shown {
+        let selected = figure.selected.filter(|_| look.editing).map(usize::from);
+        figure::add(
+            &mut scene,
+            &figure.placed,
+            &figure.shapes,
+            Style::present(selected),
+        );
+        if look.editing {
+            add_editing(&mut scene, figure);
+        }
+    }
+    scene
+}
+
+/// The selected link's way, or faintly those of all extremities.
+fn add_trails(scene: &mut Scene, samples: &Samples, figure: &FigureView, look: &Look, keys: &[rig::KeyView]) {
+    let key_secs: Vec<f64> = keys.iter().map(|key| key.secs).collect();
+    match figure.selected.filter(|_| look.editing) {
+        Some(link) => samples.add_trail(scene, usize::from(link), theme::SELECTED, 0.8, &key_secs),
+        None => {
+            for (link, _) in extremities(figure) {
+                samples.add_trail(scene, link, theme::DIM, 0.6, &[]);
+            }
+        }
+    }
+}
+
+/// Links that carry no other.
+fn extremities(figure: &FigureView) -> impl Iterator<Item = (usize, &motion::figure::Link)> {
+    figure
+        .figure
+        .links()
+        .iter()
+        .enumerate()
+        .filter(|(_, link)| link.attachments.is_empty())
+}
+
+/// Lines of the floor's grid on each side of the middle.
+const FLOOR_LINES: i32 = 5;
+
+fn add_floor(scene: &mut Scene, height: f64) {
+    let step = nice_step(scene.camera.half_height / 3.0);
+    let middle = |v: f64| (v / step).round() * step;
+    let centre = DVec3::new(
+        middle(scene.camera.centre.x),
+        height,
+        middle(scene.camera.centre.z),
+    );
+    let reach = step * f64::from(FLOOR_LINES);
+    let ink = Ink::new(theme::FAINT, Layer::Ground).faded(0.5);
+    for line in -FLOOR_LINES..=FLOOR_LINES {
+        let off = step * f64::from(line);
+        for (along, across) in [(DVec3::X, DVec3::Z), (DVec3::Z, DVec3::X)] {
+            let at = centre + across * off;
+            scene.stroke(at - along * reach, at + along * reach, theme::WIDTH_GRID, ink);
+        }
+    }
+}
+
+/// The largest of 1, 2, 5, 10, … times a power of ten that is not above `length`.
+fn nice_step(length: f64) -> f64 {
+    if !(length.is_finite() && length > 0.0) {
+        return 1.0;
+    }
+    let power = 10_f64.powi(length.log10().floor() as i32);
+    let times = length / power;
+    power
+        * if times >= 5.0 {
+            5.0
+        } else if times >= 2.0 {
+            2.0
+        } else {
+            1.0
+        }
+}
+
+/// The selected link's name, the cursor's line through the picture, and the two ends it offers.
+fn add_editing(scene: &mut Scene, figure: &FigureView) {
+    let Some(selected) = figure.selected.map(usize::from) else {
+        return;
+    };
+    let Some(link) = figure.placed.get(selected) else {
+        return;
+    };
+    let name = figure
+        .figure
+        .links()
+        .get(selected)
+        .map_or("", |link| link.name.as_str());
+    let ink = Ink::new(theme::SELECTED, Layer::Overlay).flat();
+    scene.label(Place::World(link.end, [10.0, -16.0]), name, theme::SIZE_BODY, ink);
+    for candidate in &figure.candidates {
+        scene.stroke(link.start, *candidate, theme::WIDTH_GHOST, ink.faded(0.5));
+        scene.dot(*candidate, 4.0, Mark::Ring, ink);
+    }
+    if let Some(cursor) = figure.cursor {
+        add_cursor(scene, cursor);
+    }
+}
+
+/// The cursor is a line along the view direction: a point from the front, a line from the side.
+fn add_cursor(scene: &mut Scene, cursor: DVec2) {
+    let camera = scene.camera;
+    let world_from_view = camera.view_from_world.transpose();
+    let at = camera.centre + world_from_view * (cursor * camera.half_height).extend(0.0);
+    let along = world_from_view.z_axis * camera.half_height * 3.0;
+    let ink = Ink::new(theme::LIVE, Layer::Overlay).flat();
+    scene.stroke(at - along, at + along, theme::WIDTH_GRID, ink.faded(0.6));
+    let arm = camera.half_height * 0.03;
+    for axis in [world_from_view.x_axis, world_from_view.y_axis] {
+        scene.stroke(at - axis * arm, at + axis * arm, theme::WIDTH_GHOST, ink);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_rig_is_an_empty_floor() {
+        let scene = scene(&Snapshot::default(), &Look::default());
+        assert_eq!(scene.strokes.len(), 22);
+        assert!(scene.labels.is_empty() && scene.dots.is_empty());
+    }
+
+    #[test]
+    fn steps_are_nice() {
+        for (length, want) in [(0.7, 0.5), (0.34, 0.2), (1.0, 1.0), (19.0, 10.0), (f64::NAN, 1.0)] {
+            assert!((nice_step(length) - want).abs() < 1e-12, "{length}");
+        }
+    }
+}
