@@ -1,1 +1,24 @@
-//! Simulated device firmware, byte-exact, with its own clock and faults.
+//! Simulated device firmware: bytes in, bytes out, byte for byte what the manuals say, late where the
+//! wire is slow, wrong where a fault was asked for.
+//!
+//! Knows: wire formats, control tables (through `device_profiles`), the time a byte takes, hands, motors
+//! and heat, each only as well as a driver can see them from the far end of the cable.
+//! Must not know: the driver. It shares facts with it (the profiles), never code, so that one mistake
+//! cannot agree with itself. It reads no clock, opens no port and keeps no thread: time comes in as `now_us`,
+//! and how the calls are cut up does not change a byte.
+//!
+//! Start at [`Firmware`], then [`dial_box`] (the smallest device), [`wacom_iv`], and [`dynamixel`], where
+//! `bus.rs` orders the events on the wire and `servo.rs` is one servo. [`script`] plays hands from a text.
+pub mod dial_box;
+
+mod firmware;
+pub mod hands;
+mod line;
+pub mod script;
+mod uart;
+pub mod wacom_iv;
+
+pub use dial_box::SgiDialBox;
+pub use firmware::Firmware;
+pub use script::Script;
+pub use wacom_iv::WacomIv;
