@@ -29,8 +29,8 @@ pub struct KnobsProfile {
     pub lamps: u8,
     /// Counts in one turn of a dial.
     pub counts_per_turn: u32,
-    /// Whether an absolute count starts at 0 when the box is switched on, so that the first report is itself
-    /// a turn. Otherwise the first report only says where the dial stands.
+    /// Whether initialising sets the counts to 0, so that the first report is itself a turn.
+    /// Otherwise the first report only says where the dial stands.
     pub counts_start_at_zero: bool,
     /// Text displays; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]

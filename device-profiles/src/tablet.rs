@@ -40,6 +40,8 @@ pub struct Identify {
     pub model: String,
     /// ROM version as a simulated tablet answers it.
     pub version: String,
+    /// Whether it answers the question for its size.
+    pub answers_size: bool,
 }
 
 /// The active area; used where the tablet does not say itself.
@@ -50,8 +52,12 @@ pub struct Surface {
     pub counts: [u32; 2],
     /// Lines per inch, x and y.
     pub counts_per_inch: [u32; 2],
-    /// Largest pressure.
+    /// Largest pressure: 120 (7 bits), 255 or 511.
     pub pressure: u16,
+    /// Whether pens report their tilt.
+    pub tilt: bool,
+    /// Which of the four button bits a pen's eraser end sets: 3, or 2, which it shares with button 2.
+    pub eraser_bit: u8,
 }
 
 /// One kind of tool.
@@ -62,6 +68,9 @@ pub struct SerialTool {
     pub tool: Tool,
     /// Number of buttons, numbered from 1; the tip is not one.
     pub buttons: u8,
+    /// Whether it has a wheel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wheel: Option<bool>,
 }
 
 /// The kinds of tool.
