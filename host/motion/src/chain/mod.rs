@@ -1,0 +1,210 @@
+//! The body that moves: a robot whose rotations are inherited from joint to joint, as in URDF.
+//!
+//! Not to be confused with [`crate::figure`], whose links know their own directions in the world.
+//! Source: the URDF joint element (origin, axis, limit), wiki.ros.org/urdf/XML/joint.
+
+mod rigid;
+
+pub use rigid::Rigid;
+
+use crate::curve::Interval;
+use glam::{DQuat, DVec3};
+use thiserror::Error;
+
+/// Which joint of a chain: a parent's index is always smaller than its children's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct JointIndex(pub u16);
+
+impl JointIndex {
+    /// For indexing slices.
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointKind {
+    /// About an axis in the joint's own frame; any length above zero is taken.
+    Revolute {
+        /// The axis; positive angles turn right-handed about it.
+        axis: DVec3,
+    },
+    /// Not at all; its angle is ignored.
+    Fixed,
+}
+
+/// One joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Its name, unique in the chain.
+    pub name: String,
+    /// The joint it hangs from; none for those on the base.
+    pub parent: Option<JointIndex>,
+    /// Where it sits at angle zero.
+    pub parent_from_joint: Rigid,
+    /// How it moves.
+    pub kind: JointKind,
+    /// Where it may go, radians.
+    pub range_rad: Interval,
+    /// How fast it may go, radians per second, above zero; infinite where nobody knows.
+    pub speed_max_rad_per_s: f64,
+}
+
+/// Why joints make no chain.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ChainError {
+    /// Two joints have one name.
+    #[error("two joints are called {name}; give each its own name")]
+    DuplicateName {
+        /// The name.
+        name: String,
+    },
+    /// A parent must come before its child.
+    #[error(
+        "joint {joint} hangs from joint number {parent}, which does not come before it; list parents first"
+    )]
+    ParentAfterChild {
+        /// The child's name.
+        joint: String,
+        /// The index it names.
+        parent: u16,
+    },
+    /// An axis is finite and not zero.
+    #[error("joint {joint} turns about {axis}; an axis is finite and not zero")]
+    BadAxis {
+        /// The joint's name.
+        joint: String,
+        /// What it says.
+        axis: DVec3,
+    },
+    /// A range has finite ends, the smaller first.
+    #[error("joint {joint} ranges from {} to {} rad; a range is finite, the smaller end first", range.start, range.end)]
+    BadRange {
+        /// The joint's name.
+        joint: String,
+        /// What it says.
+        range: Interval,
+    },
+    /// A speed is above zero.
+    #[error("joint {joint} may turn at {speed} rad/s; a speed is above zero")]
+    BadSpeed {
+        /// The joint's name.
+        joint: String,
+        /// What it says.
+        speed: f64,
+    },
+    /// A place is finite.
+    #[error("joint {joint} sits at a place that is not finite")]
+    NotFinite {
+        /// The joint's name.
+        joint: String,
+    },
+    /// More joints than an index can count.
+    #[error("{joints} joints are too many; {} are the most", u16::MAX)]
+    TooMany {
+        /// How many there are.
+        joints: usize,
+    },
+}
+
+/// A robot's joints. Invariants: parents first; axes are unit vectors; ranges are finite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    joints: Vec<Joint>,
+}
+
+impl Chain {
+    /// A chain of these joints, parents first.
+    pub fn new(mut joints: Vec<Joint>) -> Result<Self, ChainError> {
+        if joints.len() > usize::from(u16::MAX) {
+            return Err(ChainError::TooMany { joints: joints.len() });
+        }
+        for index in 0..joints.len() {
+            let (before, rest) = joints.split_at_mut(index);
+            if let Some(joint) = rest.first_mut() {
+                check(before, joint)?;
+            }
+        }
+        Ok(Self { joints })
+    }
+
+    /// All joints, parents first.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// How many joints there are.
+    pub fn len(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// Whether there is nothing to move.
+    pub fn is_empty(&self) -> bool {
+        self.joints.is_empty()
+    }
+
+    /// The joint of that name.
+    pub fn by_name(&self, name: &str) -> Option<JointIndex> {
+        self.joints
+            .iter()
+            .position(|joint| joint.name == name)
+            .map(|i| JointIndex(i as u16))
+    }
+
+    /// The angles nearest to zero that all joints may have.
+    pub fn rest_angles(&self) -> Vec<f64> {
+        self.joints
+            .iter()
+            .map(|joint| joint.range_rad.clamp(0.0))
+            .collect()
+    }
+
+    /// Forward kinematics: where every joint's frame lies after its own turn, in the chain's order,
+    /// replacing what was in `placed`. `angles` are radians, one for each joint; missing ones are zero.
+    pub fn place(&self, world_from_base: &Rigid, angles_rad: &[f64], placed: &mut Vec<Rigid>) {
+        placed.clear();
+        for (index, joint) in self.joints.iter().enumerate() {
+            let parent = match joint.parent {
+                Some(parent) => placed[parent.index()],
+                None => *world_from_base,
+            };
+            let mut world_from_joint = parent * joint.parent_from_joint;
+            if let (JointKind::Revolute { axis }, Some(&angle)) = (joint.kind, angles_rad.get(index)) {
+                world_from_joint.rotation *= DQuat::from_axis_angle(axis, angle);
+            }
+            placed.push(world_from_joint);
+        }
+    }
+}
+
+fn check(before: &[Joint], joint: &mut Joint) -> Result<(), ChainError> {
+    let name = || joint.name.clone();
+    if before.iter().any(|other| other.name == joint.name) {
+        return Err(ChainError::DuplicateName { name: name() });
+    }
+    if let Some(parent) = joint.parent.filter(|parent| parent.index() >= before.len()) {
+        return Err(ChainError::ParentAfterChild {
+            joint: name(),
+            parent: parent.0,
+        });
+    }
+    if !joint.parent_from_joint.is_finite() {
+        return Err(ChainError::NotFinite { joint: name() });
+    }
+    let range = joint.range_rad;
+    if !(range.start.is_finite() && range.end.is_finite() && range.start <= range.end) {
+        return Err(ChainError::BadRange { joint: name(), range });
+    }
+    if joint.speed_max_rad_per_s.is_nan() || joint.speed_max_rad_per_s <= 0.0 {
+        return Err(ChainError::BadSpeed {
+            joint: name(),
+            speed: joint.speed_max_rad_per_s,
+        });
+    }
+    if let JointKind::Revolute { axis } = joint.kind {
+        let axis = crate::figure::unit(axis).map_err(|_| ChainError::BadAxis { joint: name(), axis })?;
+        joint.kind = JointKind::Revolute { axis };
+    }
+    Ok(())
+}
