@@ -23,7 +23,7 @@ pub struct Located<T> {
 /// Whether the thing at fault was left out or taken anyway.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// The command was left out.
+    /// The command, or the member of a structure, was left out.
     Error,
     /// The command was taken as described.
     Warning,

@@ -1,11 +1,22 @@
 //! The command language: text to commands and diagnostics, and back.
 //!
-//! Start at [`Command`].
+//! Start at [`Command`]. [`parse`] reads a text, [`print`] writes the canonical form of a command.
+//!
+//! What is known of the language, and from where, is in `docs/protocols/ps300.md`. Decisions of this
+//! project, where that record is silent, stand at the top of the file that makes them: comments and quotes
+//! in `lexer`, values in `parser/literal`, vector lists in `parser/data`, structures in `parser/definition`,
+//! recovery in `parser`.
 
 mod command;
 mod diagnostic;
+mod lexer;
 mod name;
 mod node;
+mod parser;
+mod print;
+mod reports;
+mod token;
+mod words;
 
 pub use command::{
     Command, Definition, Disconnection, Initialization, Input, InputOf, OutputOf, Payload, Text,
@@ -15,3 +26,5 @@ pub use name::Name;
 pub use node::{
     Axis, Boundaries, Characters, Member, Node, Operation, Range, Vector, VectorClass, VectorList,
 };
+pub use parser::parse;
+pub use print::{literal, print};
