@@ -1,6 +1,6 @@
 //! Transports, codecs, clocks and the servo bus: bytes and units, no meaning.
 //!
-//! Knows: how bytes come and go ([`transport`]), what they say (`codec`, `servo::framing`), how counts become
+//! Knows: how bytes come and go ([`transport`]), what they say ([`codec`], `servo::framing`), how counts become
 //! radians and which goals a servo may get (`servo`), and what time it is ([`clock`]). Must not know: figures,
 //! networks, shows, or what anybody wants with a knob. Codecs and framing must not know transports either:
 //! they run as well on a file of bytes.
@@ -8,6 +8,7 @@
 //! Start at [`transport::Transport`].
 
 pub mod clock;
+pub mod codec;
 pub mod transport;
 
 pub use clock::{Clock, Instant, MonotonicClock, VirtualClock};

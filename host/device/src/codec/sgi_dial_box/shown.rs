@@ -1,0 +1,85 @@
+//! What the box shows, and what it should: only differences are sent.
+
+use crate::codec::{Feedback, Outgoing};
+use device_profiles::{KnobsProfile, Labels};
+use std::collections::BTreeMap;
+
+/// Lamps: four bytes, lamps 0–7 first, bit 0 of each its first lamp.
+const LAMPS: u8 = 0x75;
+/// Text: the control, then the characters.
+const LABEL: u8 = 0x61;
+
+/// Shadow of lamps and labels.
+#[derive(Debug)]
+pub(super) struct Shown {
+    lamps_mask: u32,
+    labels: Option<Labels>,
+    lamps: u32,
+    lamps_sent: Option<u32>,
+    text: BTreeMap<u8, Vec<u8>>,
+    text_sent: BTreeMap<u8, Vec<u8>>,
+}
+
+impl Shown {
+    pub(super) fn new(profile: &KnobsProfile) -> Self {
+        Self {
+            lamps_mask: super::low_bits(profile.lamps),
+            labels: profile.labels,
+            lamps: 0,
+            lamps_sent: None,
+            text: BTreeMap::new(),
+            text_sent: BTreeMap::new(),
+        }
+    }
+
+    /// Notes what is wanted; what the box does not have is left out.
+    pub(super) fn want(&mut self, feedback: &Feedback) {
+        match feedback {
+            Feedback::Lamps(mask) => self.lamps = mask & self.lamps_mask,
+            Feedback::Label { control, text } => {
+                let Some(labels) = self.labels else { return };
+                if *control < labels.dials.saturating_add(labels.keys) {
+                    self.text.insert(*control, padded(text, labels.characters.into()));
+                }
+            }
+        }
+    }
+
+    /// After a start: the box shows nothing we know of.
+    pub(super) fn send_everything(&mut self, out: &mut Outgoing) {
+        self.lamps_sent = None;
+        self.text_sent.clear();
+        self.send_changes(out);
+    }
+
+    pub(super) fn send_changes(&mut self, out: &mut Outgoing) {
+        if self.lamps_mask != 0 && self.lamps_sent != Some(self.lamps) {
+            out.bytes(&[LAMPS]);
+            out.bytes(&self.lamps.to_le_bytes());
+            self.lamps_sent = Some(self.lamps);
+        }
+        for (control, text) in &self.text {
+            if self.text_sent.get(control) != Some(text) {
+                out.bytes(&[LABEL, *control]);
+                out.bytes(text);
+                self.text_sent.insert(*control, text.clone());
+            }
+        }
+    }
+}
+
+/// Exactly `characters` bytes of printable ASCII.
+fn padded(text: &str, characters: usize) -> Vec<u8> {
+    let printable = |c: char| {
+        if c.is_ascii_graphic() || c == ' ' {
+            c as u8
+        } else {
+            b'?'
+        }
+    };
+    text.chars()
+        .map(printable)
+        .chain(std::iter::repeat(b' '))
+        .take(characters)
+        .collect()
+}
