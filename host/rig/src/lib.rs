@@ -7,6 +7,8 @@
 //! *Start reading* at [`command`] and [`snapshot`] (what goes in and out), then [`rig`](mod@rig) (the order).
 
 pub mod command;
+pub mod document;
+pub mod history;
 pub mod snapshot;
 
 pub use command::{

@@ -1,0 +1,164 @@
+//! Checking a file without opening it in the rig: everything that is wrong with it at once.
+
+use std::path::{Path, PathBuf};
+
+use ps300::language::{self, Severity};
+
+use super::bvh;
+use super::clip_file;
+use super::fault::{FileError, FileErrors, Findings};
+use super::figure::{FigureDoc, FigureTexts};
+use super::folder;
+use super::show::Show;
+use super::source::Source;
+use super::structure;
+
+/// Checks a show folder, `show.toml`, `.str`, `.pri`, `.shp`, `.ps300`, `.bvh`, or the `.toml` of a clip.
+pub fn check_file(path: &Path) -> Findings {
+    let mut found = Findings::default();
+    let extension = path
+        .extension()
+        .map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        _ if path.is_dir() => check_show(path, &mut found),
+        Some("toml") if path.file_name().is_some_and(|name| name == "show.toml") => {
+            check_show(path, &mut found)
+        }
+        Some("toml") => with_source(path, &mut found, check_clip),
+        Some("str") => with_source(path, &mut found, |source, found| {
+            structure::read(source, found);
+        }),
+        Some("pri" | "shp" | "ps300") => with_source(path, &mut found, check_network),
+        Some("bvh") => with_source(path, &mut found, check_bvh),
+        _ => {
+            let error = FileError::whole(path, "this is no kind of file that is known here");
+            found.error(error.with_hint("known: a show folder, .toml, .str, .pri, .shp, .ps300, .bvh"));
+        }
+    }
+    found
+        .errors
+        .sort_by_key(|error| (error.file.clone(), error.line, error.column));
+    found
+}
+
+fn with_source(path: &Path, found: &mut Findings, check: impl FnOnce(&Source, &mut Findings)) {
+    match Source::open(path) {
+        Ok(source) => check(&source, found),
+        Err(error) => found.error(error),
+    }
+}
+
+fn take(errors: FileErrors, found: &mut Findings) {
+    errors.0.into_iter().for_each(|error| found.error(error));
+}
+
+fn check_show(path: &Path, found: &mut Findings) {
+    match folder::load(path) {
+        Ok(loaded) => {
+            found.warnings.extend(loaded.warnings);
+            check_parts(&loaded.show, &loaded.folder, found);
+        }
+        Err(errors) => take(errors, found),
+    }
+}
+
+/// What is only judged when a show is played: its networks, and whether its clips can be built.
+fn check_parts(show: &Show, folder: &Path, found: &mut Findings) {
+    let mut texts: Vec<(PathBuf, &str)> = show
+        .networks
+        .iter()
+        .map(|network| {
+            (
+                folder.join("networks").join(format!("{}.ps300", network.name)),
+                network.text.as_str(),
+            )
+        })
+        .collect();
+    texts.push((folder.join("patches.ps300"), &show.patches));
+    let Some(figure) = &show.figure else {
+        texts
+            .iter()
+            .for_each(|(path, text)| check_network(&Source::from_text(path, *text), found));
+        return;
+    };
+    let beside = |extension: &str| folder.join("figure").join(format!("{}.{extension}", figure.name));
+    texts.push((beside("pri"), &figure.primitives));
+    texts.push((beside("shp"), &figure.shapes));
+    for (path, text) in texts {
+        check_network(&Source::from_text(&path, text), found);
+    }
+    for (name, clip) in &show.clips {
+        let path = folder.join("clips").join(format!("{name}.toml"));
+        match clip.clip(&figure.figure) {
+            Err(error) => found.error(FileError::whole(&path, error.to_string())),
+            Ok(None) => found.warn(FileError::whole(&path, "this clip has no keys")),
+            Ok(Some(built)) => {
+                built
+                    .warnings()
+                    .iter()
+                    .for_each(|warning| found.warn(FileError::whole(&path, warning.to_string())));
+                for stretch in built.kinetics().reversals() {
+                    let message = format!(
+                        "the motion runs backwards from {:.3} s to {:.3} s",
+                        stretch.start, stretch.end
+                    );
+                    let hint = "use kinetics = \"monotone\", or move the keys";
+                    found.warn(FileError::whole(&path, message).with_hint(hint));
+                }
+            }
+        }
+    }
+}
+
+fn check_network(source: &Source, found: &mut Findings) {
+    let (_, diagnostics) = language::parse(source.text());
+    for diagnostic in diagnostics {
+        let mut message = diagnostic.message;
+        if let Some(expected) = diagnostic.expected {
+            message.push_str("; expected ");
+            message.push_str(&expected);
+        }
+        let mut error = source.error_at((diagnostic.line, diagnostic.column), message);
+        error.hint = diagnostic.hint;
+        match diagnostic.severity {
+            Severity::Error => found.error(error),
+            Severity::Warning => found.warn(error),
+        }
+    }
+}
+
+fn check_bvh(source: &Source, found: &mut Findings) {
+    match bvh::import(source, "checked") {
+        Ok(imported) => found.warnings.extend(imported.warnings),
+        Err(errors) => take(errors, found),
+    }
+}
+
+/// A clip is checked against the figure of the show it lies in, if it lies in one.
+fn check_clip(source: &Source, found: &mut Findings) {
+    let show = source
+        .path()
+        .parent()
+        .and_then(Path::parent)
+        .map(|folder| folder.join("show.toml"));
+    let figure = show
+        .filter(|show| show.exists())
+        .and_then(|show| figure_beside(&show));
+    if figure.is_none() {
+        let warning = source.error_at((1, 1), "there is no readable show around this clip");
+        found.warn(warning.with_hint("the names of its links are not checked"));
+    }
+    clip_file::read(source, figure.as_ref().map(|figure| &*figure.figure), found);
+}
+
+/// The figure a show names, for its link names; faults in it are the show's affair.
+fn figure_beside(show: &Path) -> Option<FigureDoc> {
+    let name = folder::figure_name(show)?;
+    let structure = Source::open(&show.parent()?.join("figure").join(format!("{name}.str"))).ok()?;
+    FigureDoc::read(
+        &name,
+        &structure,
+        FigureTexts::default(),
+        &mut Findings::default(),
+    )
+}

@@ -1,0 +1,85 @@
+//! A clip as the document keeps it: key poses, and how time and space run between them.
+
+use std::sync::Arc;
+
+use motion::{Clip, ClipError, DirectionLaw, Figure, FigureKey, Keyframes, KineticsMode, TwistLaw};
+
+/// Keys and laws of one clip. The figure it belongs to is the show's.
+///
+/// Keys are shared one by one, so that a history of a clip with thousands of keys holds each once.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ClipDoc {
+    /// Keys, earliest first, at strictly increasing times; each pose has one entry per link.
+    pub keys: Vec<Arc<FigureKey>>,
+    /// How directions go from key to key.
+    pub direction_law: DirectionLaw,
+    /// How twists go from key to key.
+    pub twist_law: TwistLaw,
+    /// How key times become the kinetic spline.
+    pub kinetics: KineticsMode,
+    /// Amounts added to kinetic coefficients: index, keys. At most one entry an index, ascending. They
+    /// wait unused while `kinetics` is a mode without coefficients.
+    pub coefficient_edits: Vec<(usize, f64)>,
+    /// Whether coefficients are held in order, so that time cannot run backwards.
+    pub keep_forward: bool,
+    /// Seconds from frame to frame in the file the clip came from, and in files made from it.
+    pub frame_secs: Option<f64>,
+}
+
+/// Frame time of exports when the clip does not say: 30 frames a second, as the thesis filmed.
+const FRAME_SECS_DEFAULT: f64 = 1.0 / 30.0;
+
+/// Most frames exported from one clip; more is a mistyped time.
+const FRAMES_MAX: usize = 1_000_000;
+
+impl ClipDoc {
+    /// The keyframes in `motion`'s editable form.
+    pub fn keyframes(&self, figure: &Arc<Figure>) -> Keyframes {
+        Keyframes {
+            figure: Arc::clone(figure),
+            keys: self.keys.iter().map(|key| FigureKey::clone(key)).collect(),
+            direction_law: self.direction_law,
+            twist_law: self.twist_law,
+            kinetics: self.kinetics,
+            coefficient_edits: self.coefficient_edits.clone(),
+            keep_forward: self.keep_forward,
+        }
+    }
+
+    /// The playable form; `None` while there is no key.
+    pub fn clip(&self, figure: &Arc<Figure>) -> Result<Option<Clip>, ClipError> {
+        if self.keys.is_empty() {
+            return Ok(None);
+        }
+        Clip::build(&self.keyframes(figure)).map(Some)
+    }
+
+    /// Times of the keys, seconds.
+    pub fn times_secs(&self) -> Vec<f64> {
+        self.keys.iter().map(|key| key.secs).collect()
+    }
+
+    /// Seconds from frame to frame in exports.
+    pub fn export_frame_secs(&self) -> f64 {
+        self.frame_secs.unwrap_or(FRAME_SECS_DEFAULT)
+    }
+
+    /// Times at which exports sample the clip, from the first key to the last. `None` when there would be
+    /// more than a million.
+    pub fn frame_times_secs(&self) -> Option<Vec<f64>> {
+        let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else {
+            return Some(Vec::new());
+        };
+        let step = self.export_frame_secs();
+        // The tolerance is the thesis notes' (frames of a double interpolant): a frame on the last key counts.
+        let count = ((last.secs - first.secs) / step + 1e-6).floor();
+        if !(0.0..FRAMES_MAX as f64).contains(&count) {
+            return None;
+        }
+        Some(
+            (0..=count as usize)
+                .map(|frame| first.secs + frame as f64 * step)
+                .collect(),
+        )
+    }
+}

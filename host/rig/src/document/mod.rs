@@ -1,0 +1,36 @@
+//! The show: what is kept on disk, how it is read and written, and how it changes.
+//!
+//! *Knows* the file formats (`docs/formats.md`): show folders, the thesis's structure files, BVH, CSV.
+//! *Must not know* devices, windows, or what time it is.
+//! *Start reading* at [`Show`], then [`folder`] (a folder becomes a show) and [`save`] (and back).
+
+pub mod bvh;
+pub mod check;
+mod clip;
+mod clip_file;
+mod clip_rows;
+pub mod convert;
+pub mod csv;
+pub mod disk;
+pub mod edit;
+pub mod fault;
+mod fields;
+mod figure;
+pub mod folder;
+mod frames;
+pub mod limits;
+pub mod save;
+mod show;
+mod show_file;
+pub mod source;
+pub mod structure;
+mod zyz;
+
+pub use clip::ClipDoc;
+pub use edit::{EditError, Edited, apply};
+pub use fault::{FileError, FileErrors, Findings};
+pub use figure::{FigureDoc, FigureTexts};
+pub use folder::{Loaded, load};
+pub use frames::ExportError;
+pub use save::{autosave, save};
+pub use show::{NetworkFile, Show};

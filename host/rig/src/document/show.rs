@@ -1,0 +1,104 @@
+//! The show as a value: everything that undo brings back and a folder keeps.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::clip::ClipDoc;
+use super::figure::FigureDoc;
+use crate::snapshot::ViewState;
+
+/// One show. Never changed in place: an edit makes another one, sharing what stayed the same, so cloning
+/// costs a few reference counts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Show {
+    /// What the show is called.
+    pub name: String,
+    /// Who moves; `None` for a show that is a network alone.
+    pub figure: Option<Arc<FigureDoc>>,
+    /// Clips of that figure by name. Empty without a figure.
+    pub clips: BTreeMap<String, Arc<ClipDoc>>,
+    /// Name of the clip being edited, a key of `clips`; empty when there is none.
+    pub clip: String,
+    /// Function networks, in the order they are executed.
+    pub networks: Vec<Arc<NetworkFile>>,
+    /// Network commands given while the show ran, executed after the files; one text, in order.
+    pub patches: Arc<str>,
+    /// Name of the puppet profile the figure is played on.
+    pub puppet: Option<String>,
+    /// From where the figure is looked at; `None` for the front view that holds all of it.
+    pub view: Option<ViewState>,
+}
+
+/// A text in the network's command language.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NetworkFile {
+    /// Its name: the file's without `.ps300`.
+    pub name: String,
+    /// The commands.
+    pub text: String,
+}
+
+impl Show {
+    /// The clip being edited.
+    pub fn current_clip(&self) -> Option<&Arc<ClipDoc>> {
+        self.clips.get(&self.clip)
+    }
+
+    /// The show with network commands added to its patches.
+    #[must_use]
+    pub fn with_patch(&self, text: &str) -> Self {
+        let mut patches = String::from(&*self.patches);
+        if !patches.is_empty() && !patches.ends_with('\n') {
+            patches.push('\n');
+        }
+        patches.push_str(text);
+        Self {
+            patches: patches.into(),
+            ..self.clone()
+        }
+    }
+
+    /// The show with one clip put in place of that of the same name, or added.
+    #[must_use]
+    pub fn with_clip(&self, name: &str, clip: ClipDoc) -> Self {
+        let mut clips = self.clips.clone();
+        clips.insert(name.to_owned(), Arc::new(clip));
+        Self {
+            clips,
+            ..self.clone()
+        }
+    }
+}
+
+/// Whether a name can also be a file's, on every system: letters, digits, spaces, `-`, `_` and inner dots.
+pub(super) fn is_file_name(name: &str) -> bool {
+    let plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.');
+    !name.is_empty()
+        && name.len() <= 100
+        && name.chars().all(plain)
+        && !name.starts_with(['.', ' '])
+        && !name.ends_with(['.', ' '])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_parts_can_be_names_of_files() {
+        for good in ["salute", "01_01", "walk 2", "v1.2", "躍"] {
+            assert!(is_file_name(good), "{good}");
+        }
+        for bad in ["", ".", "..", "a/b", "a\\b", " a", "a ", ".hidden", "a\nb", "a:b"] {
+            assert!(!is_file_name(bad), "{bad}");
+        }
+    }
+
+    #[test]
+    fn patches_are_kept_in_order_one_a_line() {
+        let show = Show::default()
+            .with_patch("SEND 1 TO <1>A;")
+            .with_patch("SEND 2 TO <1>A;");
+        assert_eq!(&*show.patches, "SEND 1 TO <1>A;\nSEND 2 TO <1>A;");
+    }
+}
