@@ -4,6 +4,7 @@
 mod event;
 mod outgoing;
 pub mod sgi_dial_box;
+pub mod wacom_iv;
 
 pub use event::{Feedback, InputEvent, PenSample, Stamped, Surface, Tool};
 pub use outgoing::{Outgoing, Step};
