@@ -30,6 +30,7 @@ impl View {
 
     /// The view from the side, turned by a quarter about the screen's vertical: for choosing between near
     /// and far with one's own eyes.
+    #[must_use]
     pub fn from_side(&self) -> Self {
         let turn = DMat3::from_rotation_y(-std::f64::consts::FRAC_PI_2);
         Self {

@@ -210,7 +210,9 @@ impl Goal<'_> {
                 let held = i >= n || self.pushes_outwards(i, angles[i], downhill[i]);
                 if held {
                     matrix[i] = [0.0; 3];
-                    matrix.iter_mut().for_each(|row| row[i] = 0.0);
+                    for row in &mut matrix {
+                        row[i] = 0.0;
+                    }
                     matrix[i][i] = 1.0;
                     downhill[i] = 0.0;
                 } else {
@@ -264,6 +266,6 @@ impl Goal<'_> {
             .take(GRID_BEST)
             .map(|(_, start)| self.refine(start))
             .min_by(|a, b| a.1.total_cmp(&b.1))
-            .unwrap_or_else(|| (self.before, f64::INFINITY))
+            .unwrap_or((self.before, f64::INFINITY))
     }
 }
