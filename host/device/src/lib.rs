@@ -5,11 +5,15 @@
 //! networks, shows, or what anybody wants with a knob. Codecs and framing must not know transports either:
 //! they run as well on a file of bytes.
 //!
-//! Start at [`transport::Transport`].
+//! Start at [`transport::Transport`], then [`Device::poll`].
 
 pub mod clock;
 pub mod codec;
+pub mod device;
+pub mod servo;
 pub mod transport;
 
 pub use clock::{Clock, Instant, MonotonicClock, VirtualClock};
+pub use codec::{Codec, Feedback, InputEvent, PenSample, Stamped, Tool};
+pub use device::{Device, Health};
 pub use transport::{Boundary, Transport, TransportError};

@@ -1,0 +1,501 @@
+//! The cycle: goals out and readings in, in one write; health in turn; and switching torque off.
+//!
+//! A servo that does not answer can silence those behind it (some firmware waits for the one before), so
+//! members are asked in an order: those that answered first, then those that did not, the one to blame last.
+//! Only a member whose predecessors all answered is blamed.
+
+use super::bus::{
+    Armed, Bus, BusError, BusEvent, Commanded, Goal, Intervention, Mode, Presence, Releasing, Slot,
+};
+use super::framing::dynamixel2;
+use super::freshness::Verdict;
+use super::gather::Gather;
+use super::line::{Answer, Progress};
+use super::table::{Block, Table};
+use crate::clock::Instant;
+use std::time::Duration;
+
+/// So often a member must be the one to blame before it counts as absent.
+const MISSES_MAX: u32 = 2;
+/// How often torque is switched off before a servo is reported to keep it.
+const RELEASE_TRIES: u8 = 5;
+/// Time left in a period, beyond an exchange's own, for it to be begun.
+const MARGIN: Duration = Duration::from_millis(2);
+/// A health reading must say so twice in a row before torque or watchdog count as lost.
+const CONFIRMATIONS: u8 = 2;
+
+/// What is being read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Asked {
+    Status,
+    Health(Item),
+}
+
+/// The health readings, in turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Item {
+    Errors,
+    Torque,
+    Watchdog,
+    Supply,
+}
+
+impl Item {
+    fn next(self) -> Self {
+        match self {
+            Self::Errors => Self::Torque,
+            Self::Torque => Self::Watchdog,
+            Self::Watchdog => Self::Supply,
+            Self::Supply => Self::Errors,
+        }
+    }
+
+    fn block(self, table: &Table) -> Block {
+        match self {
+            Self::Errors => table.error_block,
+            Self::Torque => table.torque_block,
+            Self::Watchdog => table.watchdog_block,
+            Self::Supply => table.supply,
+        }
+    }
+}
+
+/// Where the cycle stands.
+#[derive(Debug)]
+pub(super) struct Cycle {
+    asked: Option<Asked>,
+    /// Members in the order in which they are asked.
+    order: Vec<usize>,
+    asked_count: usize,
+    commanded: Instant,
+    period: Duration,
+    health_at: Instant,
+    item: Item,
+    urgent: bool,
+    since_probe: u32,
+    /// Confirmations so far that a member has lost torque, or tripped.
+    lost: Vec<[u8; 2]>,
+}
+
+impl Cycle {
+    pub(super) fn new(members: usize) -> Self {
+        Self {
+            asked: None,
+            order: (0..members).collect(),
+            asked_count: 0,
+            commanded: Instant::ZERO,
+            period: Duration::ZERO,
+            health_at: Instant::ZERO,
+            item: Item::Errors,
+            urgent: false,
+            since_probe: 0,
+            lost: vec![[0; 2]; members],
+        }
+    }
+
+    pub(super) fn restart(&mut self, now: Instant) {
+        self.asked = None;
+        self.commanded = now;
+        self.period = Duration::ZERO;
+        self.health_at = now;
+        self.urgent = false;
+        self.lost.fill([0; 2]);
+    }
+}
+
+impl Bus {
+    /// Limits the goals, sends them, and asks for readings in the same write. Call it once a period, after
+    /// [`Bus::poll`]. The time since the last goals is taken from `now`; after a stall the goals brake.
+    pub fn command(
+        &mut self,
+        goal: Goal<'_>,
+        now: Instant,
+        note: &mut dyn FnMut(Intervention),
+    ) -> Result<Commanded, BusError> {
+        if self.armed() != Armed::Yes {
+            return Err(BusError::NotArmed {
+                bus: self.settings.name.clone(),
+            });
+        }
+        if let Goal::Positions(positions) = goal
+            && positions.len() != self.slots.len()
+        {
+            let (want, got) = (self.slots.len(), positions.len());
+            return Err(BusError::GoalCount {
+                bus: self.settings.name.clone(),
+                want,
+                got,
+            });
+        }
+        let since = now.since(self.cycle.commanded);
+        // The servos count from the last packet they understood; a tenth is left for the way there.
+        if since >= self.settings.watchdog.mul_f64(0.9) {
+            self.begin_pinning(now)?;
+            return Ok(Commanded::Lapsed);
+        }
+        if !self.line.is_wire_free(now) {
+            self.counters.busy += 1;
+            return Ok(Commanded::Busy);
+        }
+        self.settle();
+        self.cycle.period = since;
+        self.cycle.commanded = now;
+        self.counters.cycles += 1;
+        self.limit(goal, since.as_secs_f64(), note);
+        let goal_address = self.table.goal.address;
+        let Self { line, slots, .. } = self;
+        let goals = slots.iter().filter_map(|slot| {
+            let rad = slot.limiter.as_ref()?.position_rad();
+            Some((
+                slot.member.id(),
+                (slot.member.position_counts(rad) as u32).to_le_bytes(),
+            ))
+        });
+        // At most 253 ids with 5 bytes each: cannot be too long.
+        let _ = dynamixel2::sync_write(line.packet(), goal_address, goals);
+        self.ask_due(now)?;
+        Ok(Commanded::Sent)
+    }
+
+    /// Asks for readings without giving goals, as while torque is off. Call it once a period.
+    pub fn observe(&mut self, now: Instant) -> Result<Commanded, BusError> {
+        if !matches!(self.mode, Mode::Loose | Mode::Armed) || !self.line.is_wire_free(now) {
+            self.counters.busy += 1;
+            return Ok(Commanded::Busy);
+        }
+        self.settle();
+        self.line.packet();
+        self.ask_due(now)?;
+        Ok(Commanded::Sent)
+    }
+
+    /// Takes in what has arrived and carries on what is under way. Never waits.
+    pub fn poll(&mut self, now: Instant, emit: &mut dyn FnMut(BusEvent)) -> Result<(), BusError> {
+        match self.mode {
+            Mode::Arming(_) => self.poll_arming(now, emit),
+            Mode::Releasing(_) => self.poll_releasing(now, emit),
+            Mode::Loose | Mode::Armed => self.poll_cycle(now, emit),
+        }
+    }
+
+    /// Switches torque off at once, whatever is going on, and goes on doing so until the servos that answer
+    /// confirm it. The joints sag: decelerate and stand first if there is time.
+    pub fn release(&mut self, now: Instant) -> Result<(), BusError> {
+        self.line.abandon();
+        for slot in &mut self.slots {
+            slot.limiter = None;
+            slot.pin = None;
+        }
+        self.cycle.restart(now);
+        let gather = Gather::new(self.table.torque_block, self.ids());
+        self.mode = Mode::Releasing(Releasing { written: 1, gather });
+        self.write_torque_off(now)
+    }
+
+    fn write_torque_off(&mut self, now: Instant) -> Result<(), BusError> {
+        let [torque, watchdog] = [self.table.torque.address, self.table.watchdog.address];
+        let out = self.line.packet();
+        let ids = || self.slots.iter().map(|slot| (slot.member.id(), [0]));
+        let _ = dynamixel2::sync_write(out, torque, ids());
+        // Twice: the first may have collided with an answer that was still on the wire.
+        let _ = dynamixel2::sync_write(out, torque, ids());
+        let _ = dynamixel2::sync_write(out, watchdog, ids());
+        self.send_unanswered(now)
+    }
+
+    fn poll_releasing(&mut self, now: Instant, emit: &mut dyn FnMut(BusEvent)) -> Result<(), BusError> {
+        let quiet = self.settings.quiet;
+        let Mode::Releasing(releasing) = &mut self.mode else {
+            return Ok(());
+        };
+        let asked = releasing.gather.advance(&mut self.line, quiet, now);
+        if !asked.map_err(|source| BusError::transport(&self.settings.name, source))? {
+            return Ok(());
+        }
+        let releasing = releasing.clone();
+        let address = releasing.gather.block().address;
+        let mut on = Vec::new();
+        for (at, answer) in releasing.gather.answers().iter().enumerate() {
+            let torque = answer.and_then(|answer| self.table.torque.get(answer.bytes(), address));
+            if let Some(slot) = self.slots.get_mut(at) {
+                slot.supply.torque = torque.map(|torque| torque != 0);
+            }
+            if torque.is_some_and(|torque| torque != 0) {
+                on.push((at, super::arming::Why::StillOn));
+            }
+        }
+        if !on.is_empty() && releasing.written < RELEASE_TRIES {
+            let gather = Gather::new(self.table.torque_block, self.ids());
+            self.mode = Mode::Releasing(Releasing {
+                written: releasing.written + 1,
+                gather,
+            });
+            return self.write_torque_off(now);
+        }
+        self.refuse(on);
+        self.mode = Mode::Loose;
+        emit(BusEvent::Released);
+        Ok(())
+    }
+
+    fn limit(&mut self, goal: Goal<'_>, dt_secs: f64, note: &mut dyn FnMut(Intervention)) {
+        for (member, slot) in self.slots.iter_mut().enumerate() {
+            let Some(limiter) = &mut slot.limiter else {
+                continue;
+            };
+            let wanted = match goal {
+                Goal::Positions(positions) => positions.get(member).copied(),
+                Goal::Standstill => None,
+            };
+            let limited = match wanted {
+                Some(rad) => limiter.step(rad, dt_secs),
+                None => limiter.brake(dt_secs),
+            };
+            if let Some(change) = limited.change {
+                note(Intervention { member, change });
+            }
+        }
+    }
+
+    /// Appends the read that is due to the packets waiting to be sent, and sends them.
+    fn ask_due(&mut self, now: Instant) -> Result<(), BusError> {
+        let overdue = now.since(self.cycle.health_at) >= self.settings.health_interval * 2;
+        let asked = if self.cycle.urgent || overdue {
+            self.next_health(now)
+        } else {
+            Asked::Status
+        };
+        self.ask(asked, now)
+    }
+
+    fn next_health(&mut self, now: Instant) -> Asked {
+        self.cycle.health_at = now;
+        if std::mem::take(&mut self.cycle.urgent) {
+            return Asked::Health(Item::Errors);
+        }
+        let item = self.cycle.item;
+        self.cycle.item = item.next();
+        Asked::Health(item)
+    }
+
+    fn ask(&mut self, asked: Asked, now: Instant) -> Result<(), BusError> {
+        let block = match asked {
+            Asked::Status => self.table.status,
+            Asked::Health(item) => item.block(&self.table),
+        };
+        self.cycle.since_probe += 1;
+        let probing = asked == Asked::Status && self.cycle.since_probe >= self.settings.probe_cycles;
+        if probing {
+            self.cycle.since_probe = 0;
+        }
+        let slots = &self.slots;
+        let wanted = |at: &usize| match slots.get(*at).map(|slot| slot.presence) {
+            Some(Presence::Present) => true,
+            Some(Presence::Doubtful) => asked == Asked::Status,
+            Some(Presence::Absent) => probing,
+            None => false,
+        };
+        let rank = |at: &usize| slots.get(*at).map(|slot| (slot.presence as u8, slot.misses));
+        // Stable, so that it changes nothing while all answer. A merge sort of a list that is nearly in order
+        // already; lists of up to 20 are sorted in place without allocating.
+        self.cycle.order.sort_by_key(rank);
+        let ids = || {
+            let chosen = self.cycle.order.iter().filter(|at| wanted(at));
+            chosen
+                .filter_map(|at| slots.get(*at))
+                .map(|slot| slot.member.id())
+        };
+        let count = ids().count();
+        if count > 0 {
+            let _ = dynamixel2::sync_read(self.line.packet_so_far(), block.address, block.bytes, ids());
+        }
+        self.cycle.asked = (count > 0).then_some(asked);
+        self.cycle.asked_count = count;
+        let sent = self.line.send(now, ids(), usize::from(block.bytes));
+        sent.map_err(|source| BusError::transport(&self.settings.name, source))
+    }
+
+    fn poll_cycle(&mut self, now: Instant, emit: &mut dyn FnMut(BusEvent)) -> Result<(), BusError> {
+        let Self {
+            line,
+            slots,
+            table,
+            counters,
+            cycle,
+            settings,
+            ..
+        } = self;
+        let asked = cycle.asked;
+        let mut urgent = false;
+        let lost = &mut cycle.lost;
+        let progress = line
+            .poll(now, &mut |answer| {
+                let at = slots.iter().position(|slot| slot.member.id() == answer.status.id);
+                let Some((member, slot)) = at.and_then(|at| Some((at, slots.get_mut(at)?))) else {
+                    return;
+                };
+                urgent |= answer.status.error.alert() && slot.supply.error_bits == 0;
+                if answer.status.error.number() != 0 {
+                    emit(BusEvent::Refused {
+                        member,
+                        error: answer.status.error.number(),
+                    });
+                    return;
+                }
+                match asked {
+                    Some(Asked::Status) => match slot.take_status(table, member, &answer, now) {
+                        Some(event) => {
+                            counters.stale += u64::from(matches!(event, BusEvent::Stale { .. }));
+                            counters.implausible += u64::from(matches!(event, BusEvent::Implausible { .. }));
+                            emit(event);
+                        }
+                        None => {}
+                    },
+                    Some(Asked::Health(item)) => {
+                        let confirmed = lost.get_mut(member);
+                        let event = slot.take_health(table, member, item, &answer, confirmed, settings.hot_c);
+                        if let Some(event) = event {
+                            emit(event);
+                        }
+                    }
+                    None => {}
+                }
+            })
+            .map_err(|source| BusError::transport(&settings.name, source))?;
+        cycle.urgent |= urgent;
+        if progress == Progress::Done {
+            self.settle_and_tell(emit);
+            self.follow_up(now)?;
+        }
+        if matches!(self.mode, Mode::Armed) && self.cycle.lost.iter().any(|lost| lost[1] >= CONFIRMATIONS) {
+            self.begin_pinning(now)?;
+        }
+        Ok(())
+    }
+
+    /// Uses what is left of the period for the next health reading.
+    fn follow_up(&mut self, now: Instant) -> Result<(), BusError> {
+        let due = self.cycle.urgent || now.since(self.cycle.health_at) >= self.settings.health_interval;
+        let bytes = self.slots.len() + dynamixel2::INSTRUCTION_OVERHEAD_BYTES + 4;
+        let takes = self
+            .line
+            .exchange_time(bytes, self.slots.len(), usize::from(self.table.supply.bytes));
+        let ends = self.cycle.commanded.after(self.cycle.period);
+        if !due || now.after(takes + MARGIN) > ends {
+            return Ok(());
+        }
+        self.line.packet();
+        let asked = self.next_health(now);
+        self.ask(asked, now)
+    }
+
+    /// Closes an exchange of which nothing more is expected.
+    fn settle(&mut self) {
+        self.settle_and_tell(&mut |_| {});
+    }
+
+    fn settle_and_tell(&mut self, emit: &mut dyn FnMut(BusEvent)) {
+        let asked = self.cycle.asked.take();
+        if asked == Some(Asked::Status) {
+            let mut to_blame = true;
+            for id in self.line.missing() {
+                let at = self.slots.iter().position(|slot| slot.member.id() == id);
+                let Some((member, slot)) = at.and_then(|at| Some((at, self.slots.get_mut(at)?))) else {
+                    continue;
+                };
+                // Only the first is certainly to blame: the others may have waited for it.
+                if to_blame && slot.presence != Presence::Absent {
+                    slot.misses += 1;
+                    if slot.misses >= MISSES_MAX {
+                        slot.presence = Presence::Absent;
+                        emit(BusEvent::Silent { member });
+                    }
+                }
+                if slot.presence == Presence::Present {
+                    slot.presence = Presence::Doubtful;
+                }
+                to_blame = false;
+            }
+        }
+        self.line.abandon();
+    }
+}
+
+impl Slot {
+    /// Takes in one answer to the status read; the event says what was wrong with it, or that it is back.
+    fn take_status(
+        &mut self,
+        table: &Table,
+        member: usize,
+        answer: &Answer<'_>,
+        now: Instant,
+    ) -> Option<BusEvent> {
+        let was = self.presence;
+        let reading = match self
+            .member
+            .reading(answer.status.data, table.status.address, answer.measured)
+        {
+            Ok(reading) => reading,
+            Err(counts) => return Some(BusEvent::Implausible { member, counts }),
+        };
+        match self.freshness.judge(reading.tick, answer.sent, now) {
+            Verdict::Fresh => {}
+            Verdict::Stale { by_ms } => return Some(BusEvent::Stale { member, by_ms }),
+            Verdict::Restarted => return Some(BusEvent::Restarted { member }),
+        }
+        self.reading = Some(reading);
+        self.presence = Presence::Present;
+        self.misses = 0;
+        (was == Presence::Absent).then_some(BusEvent::Returned { member })
+    }
+
+    fn take_health(
+        &mut self,
+        table: &Table,
+        member: usize,
+        item: Item,
+        answer: &Answer<'_>,
+        confirmed: Option<&mut [u8; 2]>,
+        hot_c: f64,
+    ) -> Option<BusEvent> {
+        let data = answer.status.data;
+        let address = item.block(table).address;
+        let armed = self.limiter.is_some();
+        let mut unused = [0; 2];
+        let [torque_lost, tripped] = confirmed.unwrap_or(&mut unused);
+        match item {
+            Item::Errors => {
+                self.supply.error_bits = table.error.get(data, address)? as u8;
+                let bits = self.supply.error_bits;
+                (bits != 0).then_some(BusEvent::HardwareError { member, bits })
+            }
+            Item::Torque => {
+                let on = table.torque.get(data, address)? != 0;
+                self.supply.torque = Some(on);
+                *torque_lost = if armed && !on {
+                    torque_lost.saturating_add(1)
+                } else {
+                    0
+                };
+                (*torque_lost >= CONFIRMATIONS).then_some(BusEvent::TorqueLost { member })
+            }
+            Item::Watchdog => {
+                let trip = table.watchdog.get(data, address)? < 0 || data.first() == Some(&0xff);
+                *tripped = if armed && trip {
+                    tripped.saturating_add(1)
+                } else {
+                    0
+                };
+                (*tripped >= CONFIRMATIONS).then_some(BusEvent::WatchdogTripped { member })
+            }
+            Item::Supply => {
+                self.take_supply(data, address);
+                let temperature_c = self.supply.temperature_c?;
+                (temperature_c >= hot_c).then_some(BusEvent::Hot {
+                    member,
+                    temperature_c,
+                })
+            }
+        }
+    }
+}

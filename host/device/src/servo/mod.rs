@@ -1,0 +1,31 @@
+//! Servos on a bus: the only part of the program that can write a goal.
+//!
+//! Knows: packets ([`framing`]), control tables by name ([`register`]), the limits every goal passes
+//! ([`limit`]), and one bus of servos as a whole ([`bus`]). Must not know: clips, figures, or why anybody
+//! wants a pose. Angles are the joint's, in radians; counts exist only between [`member`] and the wire.
+//!
+//! Start at [`Bus`]. Taking servos apart, addressing them and reading registers is [`Maintenance`], which
+//! cannot write goals.
+
+pub mod bus;
+pub mod framing;
+pub mod freshness;
+pub mod limit;
+pub mod maintenance;
+pub mod member;
+pub mod register;
+
+mod arming;
+mod blocking;
+mod cycle;
+mod gather;
+mod line;
+mod table;
+
+pub use arming::{Refusal, Why};
+pub use bus::{
+    Armed, Bus, BusCounters, BusError, BusEvent, BusSettings, Commanded, Goal, Intervention, Presence,
+};
+pub use limit::{Change, Limits, LimitsError};
+pub use maintenance::{Found, Maintenance, MaintenanceError};
+pub use member::{Load, Member, MemberError, Reading, Supply};
