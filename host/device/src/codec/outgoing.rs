@@ -40,6 +40,11 @@ impl Outgoing {
         self.steps.drain(..)
     }
 
+    /// Forgets all steps.
+    pub fn clear(&mut self) {
+        self.steps.clear();
+    }
+
     /// Whether there is nothing to do.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()

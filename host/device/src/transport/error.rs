@@ -60,6 +60,8 @@ impl TransportError {
     }
 
     /// Sorts the system's error by what a person can do about it.
+    // Two ways of being gone, a terminal's and a socket's, are told apart by their lines.
+    #[allow(clippy::match_same_arms)]
     pub(crate) fn from_io(address: &str, hint: &'static str, source: io::Error) -> Self {
         // From errno(3); EIO is what a terminal whose master or cable has gone says.
         const ENOENT: i32 = 2;
@@ -76,9 +78,12 @@ impl TransportError {
                 Self::Forbidden { address, hint }
             }
             (Some(EBUSY), _) => Self::Busy { address },
-            (Some(EIO | ENXIO | ENODEV), _)
-            | (_, ErrorKind::BrokenPipe | ErrorKind::ConnectionReset | ErrorKind::ConnectionAborted)
-            | (_, ErrorKind::UnexpectedEof | ErrorKind::NotConnected) => Self::Gone { address },
+            (Some(EIO | ENXIO | ENODEV), _) | (_, ErrorKind::BrokenPipe | ErrorKind::UnexpectedEof) => {
+                Self::Gone { address }
+            }
+            (_, ErrorKind::ConnectionReset | ErrorKind::ConnectionAborted | ErrorKind::NotConnected) => {
+                Self::Gone { address }
+            }
             _ => Self::Io { address, source },
         }
     }
