@@ -1,6 +1,6 @@
 //! The command language: text to commands and diagnostics, and back.
 //!
-//! Start at [`Command`]. [`parse`] reads a text, [`print`] writes the canonical form of a command.
+//! Start at [`Command`]. [`parse`] reads a text, [`print()`] writes the canonical form of a command.
 //!
 //! What is known of the language, and from where, is in `docs/protocols/ps300.md`. Decisions of this
 //! project, where that record is silent, stand at the top of the file that makes them: comments and quotes
