@@ -1,0 +1,396 @@
+//! Time: play, scrub, keys as diamonds, and above them the kinetic curve.
+
+use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
+use rig::{Command, EditCommand, KineticsMode, Snapshot, TransportCommand};
+
+use super::button::{self, Button, Icon, Tone};
+use super::keys::paint_diamond;
+use super::style::{self, ink};
+use super::{Commands, Panel, kinetics, layout};
+use crate::render::theme;
+use crate::render::timeline::{Timeline, clock_text};
+
+/// The transport.
+#[derive(Default)]
+pub struct Transport {
+    dragged: Option<Dragged>,
+    curve: kinetics::Curve,
+}
+
+/// A key on its way to another time.
+struct Dragged {
+    key: usize,
+    secs: f64,
+}
+
+/// Heights of the strips, points: keys, ruler.
+const TRACK: f32 = 22.0;
+const RULER: f32 = 16.0;
+
+impl Panel for Transport {
+    fn title(&self) -> &'static str {
+        "transport"
+    }
+
+    fn ui(&mut self, ui: &mut Ui, seen: &Snapshot, commands: &mut Commands<'_>) {
+        let area = layout::inside(ui.max_rect());
+        let buttons = Rect::from_min_size(area.min, vec2(area.width(), theme::ROW));
+        let ruler = Rect::from_min_max(pos2(area.left(), area.bottom() - RULER), area.max);
+        let track = Rect::from_min_max(
+            pos2(area.left(), ruler.top() - TRACK),
+            pos2(area.right(), ruler.top()),
+        );
+        let curve = Rect::from_min_max(
+            pos2(area.left(), buttons.bottom() + theme::GAP),
+            pos2(area.right(), track.top()),
+        );
+        button_row(ui, buttons, seen, commands);
+        // Room at both ends, so that the first and last diamond are whole.
+        let line = Timeline::new(
+            seen.transport.start_secs,
+            seen.transport.end_secs,
+            area.left() + theme::GAP,
+            area.right() - theme::GAP,
+        );
+        let ground = Rect::from_min_max(curve.min, track.max);
+        ui.painter()
+            .rect_filled(ground, style::round(), ink(theme::GROUND));
+        self.scrub(
+            ui,
+            Rect::from_min_max(curve.min, ruler.max),
+            &line,
+            seen,
+            commands,
+        );
+        paint_ruler(ui, ruler, ground, &line);
+        self.curve.show(ui, curve, &line, seen, commands);
+        self.track(ui, track, &line, seen, commands);
+        paint_playhead(ui, ground, &line, seen);
+    }
+}
+
+impl Transport {
+    /// The whole strip is for scrubbing; keys and coefficients lie above it and take the pointer first.
+    fn scrub(&self, ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut Commands<'_>) {
+        let id = ui.scope_id().with("scrub");
+        let response = button::spot(ui, area, id, Sense::click_and_drag(), "scrub");
+        let pressed = response.dragged() || response.clicked();
+        if let (true, Some(at)) = (pressed, response.interact_pointer_pos()) {
+            let secs = line.secs(at.x);
+            if (secs - seen.transport.secs).abs() > 1e-6 {
+                commands.push(Command::Transport(TransportCommand::Seek { secs }));
+            }
+        }
+        if response.hovered() && !response.dragged() {
+            if let Some(at) = response.hover_pos() {
+                let x = at.x.clamp(line.left, line.right).round();
+                ui.painter()
+                    .vline(x, area.top()..=area.bottom() - RULER, style::hair(theme::EDGE));
+            }
+        }
+        button::focus_ring(ui, &response);
+        button::tooltip(
+            response,
+            "Drag to move through time.",
+            "Left, Right; Shift for ten frames",
+        );
+    }
+
+    fn track(&mut self, ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut Commands<'_>) {
+        ui.painter()
+            .hline(area.x_range(), area.top(), style::hair(theme::EDGE));
+        let middle = area.center().y.round();
+        let mut released = None;
+        for (index, key) in seen.keys.iter().enumerate() {
+            let moved = self.dragged.as_ref().filter(|d| d.key == index).map(|d| d.secs);
+            let at = pos2(line.x(moved.unwrap_or(key.secs)), middle);
+            let rect = Rect::from_center_size(at, vec2(14.0, area.height()));
+            let name = format!("diamond {}", index + 1);
+            let response = button::spot(
+                ui,
+                rect,
+                ui.scope_id().with(("diamond", index)),
+                Sense::click_and_drag(),
+                &name,
+            );
+            let colour = if key.selected {
+                theme::SELECTED
+            } else {
+                theme::TEXT
+            };
+            let radius = if response.hovered() || response.dragged() {
+                7.0
+            } else {
+                5.5
+            };
+            paint_diamond(ui.painter(), at, radius, colour);
+            if let (true, Some(pointer)) = (response.dragged(), response.interact_pointer_pos()) {
+                self.dragged = Some(Dragged {
+                    key: index,
+                    secs: between_neighbours(seen, index, line.secs(pointer.x)),
+                });
+            }
+            if response.drag_stopped() {
+                released = self.dragged.take();
+            }
+            if response.clicked() {
+                commands.push(Command::Transport(TransportCommand::Seek { secs: key.secs }));
+            }
+            button::focus_ring(ui, &response);
+            button::tooltip(
+                response,
+                "Click to go to this key, drag to give it another time.",
+                "Up, Down; Ctrl-Left, Ctrl-Right",
+            );
+        }
+        if let Some(Dragged { key, secs }) = released {
+            commands.push(Command::Edit(EditCommand::MoveKey { key, secs }));
+        }
+    }
+}
+
+/// The nearest that two keys may come, seconds: half a frame at 24 a second.
+const APART_SECS: f64 = 1.0 / 48.0;
+
+/// A key's new time, kept between its neighbours.
+pub fn between_neighbours(seen: &Snapshot, key: usize, secs: f64) -> f64 {
+    let low = key
+        .checked_sub(1)
+        .and_then(|k| seen.keys.get(k))
+        .map_or(0.0, |k| k.secs + APART_SECS);
+    let high = seen
+        .keys
+        .get(key + 1)
+        .map_or(f64::INFINITY, |k| k.secs - APART_SECS);
+    secs.min(high).max(low)
+}
+
+fn button_row(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
+    let mut left = row.left();
+    let mut cell = |width: f32, gap: f32| {
+        let rect = Rect::from_min_size(pos2(left, row.top()), vec2(width, row.height()));
+        left += width + gap;
+        rect
+    };
+    let steps: [(Icon, &str, &str, &str, TransportCommand); 2] = [
+        (
+            Icon::Start,
+            "start",
+            "Goes to the first key.",
+            "Home",
+            TransportCommand::Seek {
+                secs: seen.transport.start_secs,
+            },
+        ),
+        (
+            Icon::Previous,
+            "previous key",
+            "Goes to the key before.",
+            "Up",
+            TransportCommand::Key(-1),
+        ),
+    ];
+    for (icon, name, tip, keys, order) in steps {
+        if Button::icon(icon, name, tip, keys)
+            .show(ui, cell(32.0, theme::STEP))
+            .clicked()
+        {
+            commands.push(Command::Transport(order));
+        }
+    }
+    let (icon, tone) = if seen.transport.playing {
+        (Icon::Pause, Tone::Live)
+    } else {
+        (Icon::Play, Tone::Plain)
+    };
+    let play = Button::icon(icon, "play", "Plays on screen, or pauses.", "Space").tone(tone);
+    if play.show(ui, cell(56.0, theme::STEP)).clicked() {
+        commands.push(Command::Transport(TransportCommand::Toggle));
+    }
+    let steps: [(Icon, &str, &str, &str, TransportCommand); 2] = [
+        (
+            Icon::Next,
+            "next key",
+            "Goes to the next key.",
+            "Down",
+            TransportCommand::Key(1),
+        ),
+        (
+            Icon::End,
+            "end",
+            "Goes to the last key.",
+            "End",
+            TransportCommand::Seek {
+                secs: seen.transport.end_secs,
+            },
+        ),
+    ];
+    for (icon, name, tip, keys, order) in steps {
+        if Button::icon(icon, name, tip, keys)
+            .show(ui, cell(32.0, theme::STEP))
+            .clicked()
+        {
+            commands.push(Command::Transport(order));
+        }
+    }
+    let tone = if seen.transport.looped {
+        Tone::On
+    } else {
+        Tone::Plain
+    };
+    let again = Button::icon(Icon::Loop, "loop", "Starts over at the end.", "L").tone(tone);
+    if again.show(ui, cell(32.0, theme::MARGIN)).clicked() {
+        commands.push(Command::Transport(TransportCommand::ToggleLoop));
+    }
+    readout(ui, pos2(left + theme::STEP, row.center().y), seen);
+    right_side(ui, row, seen, commands);
+}
+
+/// The time, large, with the clip's length beside it in the same digits.
+fn readout(ui: &Ui, at: egui::Pos2, seen: &Snapshot) {
+    let now = clock_text(seen.transport.secs);
+    let colour = if seen.transport.playing {
+        theme::LIVE
+    } else {
+        theme::TEXT
+    };
+    // Eight places: the number grows to the left and its neighbours stay.
+    let font = style::digits(theme::SIZE_READOUT);
+    let right = at + vec2(84.0, 0.0);
+    ui.painter()
+        .text(right, Align2::RIGHT_CENTER, now, font, ink(colour));
+    let length = format!("/ {} s", clock_text(seen.transport.end_secs));
+    let font = style::digits(theme::SIZE_BODY);
+    ui.painter().text(
+        right + vec2(theme::GAP, 2.0),
+        Align2::LEFT_CENTER,
+        length,
+        font,
+        ink(theme::DIM),
+    );
+}
+
+/// Speeds that the buttons step through.
+const SPEEDS: [f64; 7] = [0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 4.0];
+
+/// The next speed upwards or downwards.
+pub fn stepped_speed(now: f64, up: bool) -> f64 {
+    let found = if up {
+        SPEEDS.into_iter().find(|s| *s > now + 1e-9)
+    } else {
+        SPEEDS.into_iter().rev().find(|s| *s < now - 1e-9)
+    };
+    found.unwrap_or(now)
+}
+
+/// From the right edge: how keys become timing; then the speed.
+fn right_side(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
+    let mut right = row.right();
+    let mut cell = |width: f32, gap: f32| {
+        let rect = Rect::from_min_size(pos2(right - width, row.top()), vec2(width, row.height()));
+        right -= width + gap;
+        rect
+    };
+    let edited = Button::new(
+        "Reset",
+        "Takes back all adjustments of the kinetic curve.",
+        "Shift-M",
+    )
+    .named("reset kinetics");
+    if edited.show(ui, cell(52.0, theme::GAP)).clicked() {
+        commands.push(Command::Edit(EditCommand::ResetKinetics));
+    }
+    let modes = [
+        (
+            "Linear",
+            "linear",
+            "Straight from key to key.",
+            KineticsMode::Linear,
+        ),
+        (
+            "Monotone",
+            "monotone",
+            "Smooth, and never runs backwards.",
+            KineticsMode::Monotone,
+        ),
+        (
+            "Natural",
+            "natural",
+            "The smoothest; may swing back between keys.",
+            KineticsMode::Natural,
+        ),
+    ];
+    for (text, name, tip, mode) in modes {
+        let tone = if seen.kinetics.mode == name {
+            Tone::On
+        } else {
+            Tone::Plain
+        };
+        let button = Button::new(text, tip, "M: the next one").tone(tone);
+        if button.show(ui, cell(72.0, theme::STEP)).clicked() {
+            commands.push(Command::Edit(EditCommand::KineticsMode(mode)));
+        }
+    }
+    let _ = cell(theme::MARGIN, 0.0);
+    let up = Button::new("+", "Plays faster.", "=").named("faster");
+    if up.show(ui, cell(24.0, 0.0)).clicked() {
+        let speed = stepped_speed(seen.transport.speed, true);
+        commands.push(Command::Transport(TransportCommand::Speed(speed)));
+    }
+    let speed = cell(56.0, 0.0);
+    let text = format!("{:.2}×", seen.transport.speed);
+    let font = style::digits(theme::SIZE_BODY);
+    ui.painter()
+        .text(speed.center(), Align2::CENTER_CENTER, text, font, ink(theme::DIM));
+    let down = Button::new("-", "Plays slower.", "-").named("slower");
+    if down.show(ui, cell(24.0, 0.0)).clicked() {
+        let speed = stepped_speed(seen.transport.speed, false);
+        commands.push(Command::Transport(TransportCommand::Speed(speed)));
+    }
+}
+
+fn paint_ruler(ui: &Ui, area: Rect, ground: Rect, line: &Timeline) {
+    let font = style::digits(theme::SIZE_SMALL);
+    let step = line.mark_step_secs(72.0);
+    let decimals = if step < 0.1 { 2 } else { usize::from(step < 1.0) };
+    for secs in line.marks_secs(72.0) {
+        let x = line.x(secs).round();
+        ui.painter()
+            .vline(x, ground.bottom()..=area.top() + 3.0, style::hair(theme::FAINT));
+        ui.painter().vline(
+            x,
+            ground.y_range(),
+            style::hair(theme::PANEL.mix(theme::EDGE, 0.5)),
+        );
+        let text = format!("{secs:.decimals$}");
+        let centre = pos2(x, area.top() + 4.0);
+        let half = 4.0 * text.len() as f32;
+        let (at, anchor) = if x - half < area.left() {
+            (pos2(area.left(), centre.y), Align2::LEFT_TOP)
+        } else if x + half > area.right() {
+            (pos2(area.right(), centre.y), Align2::RIGHT_TOP)
+        } else {
+            (centre, Align2::CENTER_TOP)
+        };
+        ui.painter().text(at, anchor, text, font.clone(), ink(theme::DIM));
+    }
+}
+
+fn paint_playhead(ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot) {
+    let x = line
+        .x(seen.transport.secs)
+        .clamp(area.left() + 1.0, area.right() - 1.0)
+        .round();
+    let head = Rect::from_min_max(pos2(x - 1.0, area.top()), pos2(x + 1.0, area.bottom()));
+    ui.painter().rect_filled(head, 0.0, ink(theme::LIVE));
+    let corners = vec![
+        pos2(x - 5.0, area.top()),
+        pos2(x + 5.0, area.top()),
+        pos2(x, area.top() + 6.0),
+    ];
+    ui.painter().add(egui::Shape::convex_polygon(
+        corners,
+        ink(theme::LIVE),
+        egui::Stroke::NONE,
+    ));
+}

@@ -1,0 +1,205 @@
+//! The window: asks a session for what is to be seen, and gives it what hands want done.
+//!
+//! The window never steps the rig: whoever runs the rig does, at its own pace, on its own thread. A slow
+//! picture cannot make a servo late.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::{Rect, Ui, UiBuilder, pos2};
+use rig::{Command, PuppetCommand, PuppetState, Snapshot};
+
+use crate::panels::layout::Areas;
+use crate::panels::{Choices, Commands, Panel, canvas, help, keyboard, style};
+use crate::panels::{desk, devices, header, keys, puppet, transport, view};
+use crate::render::theme;
+
+/// The other end of the window: a rig that runs somewhere else.
+pub trait Session {
+    /// What is to be seen now; cheap, never waits for a step.
+    fn snapshot(&self) -> Arc<Snapshot>;
+    /// Passes on what a hand wants done; never waits.
+    fn send(&self, command: Command);
+}
+
+/// All panels, in the order the Tab key visits them.
+pub struct Studio {
+    panels: Vec<(Place, Box<dyn Panel>)>,
+    choices: Choices,
+    queue: Vec<Command>,
+}
+
+/// Which of the layout's rectangles a panel takes.
+type Place = fn(&Areas) -> Rect;
+
+impl Default for Studio {
+    fn default() -> Self {
+        Studio::new()
+    }
+}
+
+impl Studio {
+    /// A studio with nothing chosen.
+    pub fn new() -> Studio {
+        let panels: Vec<(Place, Box<dyn Panel>)> = vec![
+            (|areas| areas.front, Box::new(view::Front::default())),
+            (|areas| areas.side, Box::new(view::Side)),
+            (|areas| areas.transport, Box::new(transport::Transport::default())),
+            (|areas| areas.desk, Box::new(desk::Desk::default())),
+            (|areas| areas.header, Box::new(header::Header)),
+            (|areas| areas.keys, Box::new(keys::Keys::default())),
+            (|areas| areas.puppet, Box::new(puppet::Puppet)),
+            (|areas| areas.devices, Box::new(devices::Devices)),
+        ];
+        Studio {
+            panels,
+            choices: Choices::default(),
+            queue: Vec::new(),
+        }
+    }
+
+    /// Draws everything into `ui`'s rectangle; returns what hands wanted since the last time, in order.
+    pub fn ui(&mut self, ui: &mut Ui, seen: &Snapshot) -> Vec<Command> {
+        let mut commands = Commands::new(&mut self.queue, &mut self.choices);
+        keyboard::act(ui.ctx(), seen, &mut commands);
+        let window = ui.max_rect();
+        let areas = Areas::of(window);
+        ui.painter().rect_filled(window, 0.0, style::ink(theme::PANEL));
+        for (place, panel) in &mut self.panels {
+            let area = place(&areas);
+            let builder = UiBuilder::new().max_rect(area).id_salt(panel.title());
+            ui.scope_builder(builder, |ui| {
+                ui.set_clip_rect(area.intersect(window));
+                panel.ui(ui, seen, &mut commands);
+            });
+        }
+        separators(ui, &areas);
+        if self.choices.help {
+            help::show(ui, areas.front.union(areas.side));
+        }
+        std::mem::take(&mut self.queue)
+    }
+
+    /// What the window itself remembers.
+    pub fn choices(&mut self) -> &mut Choices {
+        &mut self.choices
+    }
+}
+
+/// Hairlines between the panels.
+fn separators(ui: &Ui, areas: &Areas) {
+    let painter = ui.painter();
+    let edge = style::hair(theme::EDGE);
+    let column = areas.header.left() + 0.5;
+    painter.vline(column, areas.header.top()..=areas.devices.bottom(), edge);
+    for top in [areas.transport.top(), areas.desk.top()] {
+        painter.hline(areas.transport.left()..=column, top + 0.5, edge);
+    }
+    for top in [areas.keys.top(), areas.puppet.top(), areas.devices.top()] {
+        painter.hline(column..=areas.header.right(), top + 0.5, edge);
+    }
+}
+
+/// The studio on a session, as a program of its own.
+pub struct App {
+    studio: Studio,
+    session: Box<dyn Session>,
+}
+
+impl App {
+    /// Prepares context and graphics card.
+    pub fn new(creation: &eframe::CreationContext<'_>, session: Box<dyn Session>) -> App {
+        style::apply(&creation.egui_ctx);
+        if let Some(state) = &creation.wgpu_render_state {
+            canvas::setup(state);
+        }
+        App {
+            studio: Studio::new(),
+            session,
+        }
+    }
+
+    /// The studio inside.
+    pub fn studio(&mut self) -> &mut Studio {
+        &mut self.studio
+    }
+}
+
+/// Time between pictures while something moves, and while nothing does.
+const MOVING: Duration = Duration::from_millis(16);
+const RESTING: Duration = Duration::from_millis(50);
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let seen = self.session.snapshot();
+        for command in self.studio.ui(ui, &seen) {
+            self.session.send(command);
+        }
+        let moving = seen.transport.playing
+            || seen.desk.dials.iter().any(|dial| dial.live)
+            || seen
+                .puppet
+                .as_ref()
+                .is_some_and(|p| !matches!(p.state, PuppetState::Released | PuppetState::Faulted));
+        ui.ctx()
+            .request_repaint_after(if moving { MOVING } else { RESTING });
+    }
+
+    fn on_exit(&mut self) {
+        // Nobody is left to press STOP; letting go softly is the player's own policy.
+        self.session.send(Command::Puppet(PuppetCommand::Release));
+    }
+
+    fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
+        let theme::Rgb(r, g, b) = theme::PANEL;
+        [r, g, b, 255].map(|c| f32::from(c) / 255.0)
+    }
+}
+
+/// Why there is no window.
+#[derive(Debug, thiserror::Error)]
+pub enum StudioError {
+    /// Neither X11 nor Wayland is there.
+    #[error(
+        "there is no display (DISPLAY and WAYLAND_DISPLAY are empty); `dialrig demo` shows everything in files"
+    )]
+    NoDisplay,
+    /// A library that is loaded while starting is not installed.
+    #[error(
+        "the library {library} is missing, without which no window can be opened; install it (Debian: {package})"
+    )]
+    MissingLibrary {
+        /// The file's name.
+        library: &'static str,
+        /// The package that brings it.
+        package: &'static str,
+    },
+    /// The window system refused.
+    #[error("the window could not be opened: {0}")]
+    Window(String),
+}
+
+/// Opens the window on a session and stays until it is closed.
+pub fn run(session: Box<dyn Session>) -> Result<(), StudioError> {
+    crate::display::check()?;
+    let viewport = egui::ViewportBuilder::default()
+        .with_title("dialrig")
+        .with_app_id("dialrig")
+        .with_inner_size([1440.0, 900.0])
+        .with_min_inner_size(crate::panels::layout::SMALLEST);
+    let options = eframe::NativeOptions {
+        viewport,
+        ..eframe::NativeOptions::default()
+    };
+    eframe::run_native(
+        "dialrig",
+        options,
+        Box::new(|creation| Ok(Box::new(App::new(creation, session)))),
+    )
+    .map_err(|error| StudioError::Window(error.to_string()))
+}
+
+/// A rectangle of a window's size with its corner at zero.
+pub fn window_rect(size: [f32; 2]) -> Rect {
+    Rect::from_min_size(pos2(0.0, 0.0), size.into())
+}

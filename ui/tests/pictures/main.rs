@@ -1,0 +1,5 @@
+//! Pictures, looked at once by a person and from then on by these tests.
+
+mod render;
+mod studio;
+mod walker;

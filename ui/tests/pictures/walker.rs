@@ -1,0 +1,370 @@
+//! A snapshot made by hand: the printed human walking, everything else in the middle of a busy evening.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use motion::figure::{Figure, FigurePose, LinkPose, LinkSpec};
+use motion::{Clip, FigureKey, Keyframes};
+use ps300::display::Stroke;
+use rig::{
+    DeskKeyView, DeviceHealth, DeviceView, FigureView, JointView, KeyView, KineticsView, Note, NoteLevel,
+    PuppetState, PuppetView, Snapshot, TransportView, ViewState,
+};
+
+/// Number, name, freedoms, length, children with their places (`ar.str` of the thesis).
+const LINKS: [(u32, &str, u32, f64, &[(u32, [f64; 3])]); 15] = [
+    (0, "head", 3, 0.2, &[(1, [0.0, 0.0, 0.2])]),
+    (
+        1,
+        "trunk",
+        3,
+        0.3,
+        &[
+            (2, [0.125, 0.0, 0.0]),
+            (5, [-0.125, 0.0, 0.0]),
+            (8, [0.0, 0.0, 0.3]),
+        ],
+    ),
+    (2, "rua", 2, 0.2, &[(3, [0.0, 0.0, 0.2])]),
+    (3, "rfa", 2, 0.15, &[(4, [0.0, 0.0, 0.15])]),
+    (4, "rh", 2, 0.1, &[]),
+    (5, "lua", 2, 0.2, &[(6, [0.0, 0.0, 0.2])]),
+    (6, "lfa", 2, 0.15, &[(7, [0.0, 0.0, 0.15])]),
+    (7, "lh", 2, 0.1, &[]),
+    (
+        8,
+        "pelv",
+        3,
+        0.1,
+        &[(9, [0.05, 0.0, 0.1]), (12, [-0.05, 0.0, 0.1])],
+    ),
+    (9, "rt", 2, 0.25, &[(10, [0.0, 0.0, 0.25])]),
+    (10, "rc", 2, 0.25, &[(11, [0.0, 0.0, 0.25])]),
+    (11, "rf", 2, 0.1, &[]),
+    (12, "lt", 2, 0.25, &[(13, [0.0, 0.0, 0.25])]),
+    (13, "lc", 2, 0.25, &[(14, [0.0, 0.0, 0.25])]),
+    (14, "lf", 2, 0.1, &[]),
+];
+
+/// The human of 15 links.
+pub(crate) fn figure() -> Arc<Figure> {
+    let specs: Vec<LinkSpec> = LINKS
+        .iter()
+        .map(|&(number, name, dof, length, children)| LinkSpec {
+            number,
+            name: name.to_owned(),
+            dof,
+            length,
+            children: children
+                .iter()
+                .map(|&(child, at)| (child, DVec3::from_array(at)))
+                .collect(),
+        })
+        .collect();
+    Arc::new(Figure::new(&specs).expect("the table is a tree").0)
+}
+
+/// What each link looks like: trapezoids for head, trunk and pelvis, lines for limbs (`ar.pri`, `ar.shp`).
+pub(crate) fn shapes() -> Vec<Vec<Stroke>> {
+    let stroke = |from: [f64; 3], to: [f64; 3], hue_deg: f64| Stroke {
+        from: DVec3::from_array(from),
+        to: DVec3::from_array(to),
+        hue_deg,
+        saturation: 1.0,
+        intensity: 1.0,
+    };
+    LINKS
+        .iter()
+        .map(|&(_, name, _, length, _)| {
+            let (wide, narrow) = match name {
+                "head" => (0.05, 0.0),
+                "trunk" => (0.1, 0.0),
+                "pelv" => (0.0, 0.045),
+                _ => return vec![stroke([0.0; 3], [0.0, 0.0, length], 60.0)],
+            };
+            let corners = [
+                [-wide, 0.0, 0.0],
+                [wide, 0.0, 0.0],
+                [narrow, 0.0, length],
+                [-narrow, 0.0, length],
+            ];
+            (0..4)
+                .map(|i| stroke(corners[i], corners[(i + 1) % 4], 90.0))
+                .collect()
+        })
+        .collect()
+}
+
+/// One moment of a walk; a whole step is a phase of one turn.
+pub(crate) fn pose(figure: &Figure, phase_rad: f64) -> FigurePose {
+    let swing = |amount: f64, lag: f64| amount * (phase_rad + lag).sin();
+    let down = |forward: f64, out: f64| DVec3::new(out, -1.0, forward).normalize_or_zero();
+    let directions = [
+        down(0.05, 0.0),
+        down(-0.06, 0.0),
+        down(swing(0.6, 0.0), -0.18),
+        down(0.3 + swing(0.5, -0.3), -0.05),
+        down(0.4 + swing(0.5, -0.5), 0.0),
+        down(-swing(0.6, 0.0), 0.18),
+        down(0.3 - swing(0.5, -0.3), 0.05),
+        down(0.4 - swing(0.5, -0.5), 0.0),
+        down(0.0, 0.0),
+        down(-swing(0.55, 0.0), -0.04),
+        down(-0.25 - swing(0.6, 0.9), 0.0),
+        DVec3::new(-0.2, -0.35 - swing(0.3, 0.9), 1.0).normalize_or_zero(),
+        down(swing(0.55, 0.0), 0.04),
+        down(-0.25 + swing(0.6, 0.9), 0.0),
+        DVec3::new(0.2, -0.35 + swing(0.3, 0.9), 1.0).normalize_or_zero(),
+    ];
+    let links = directions
+        .into_iter()
+        .zip(figure.links())
+        .map(|(direction, link)| LinkPose {
+            direction,
+            // Puts a downward link's x axis, and with it the shoulders, across the front view.
+            twist_rad: std::f64::consts::FRAC_PI_2,
+            length: link.length,
+        })
+        .collect();
+    FigurePose {
+        root: DVec3::new(0.0, 1.3 + 0.02 * (2.0 * phase_rad).cos(), 0.0),
+        links,
+    }
+}
+
+/// Times of the keys: quick, quick, slow.
+pub(crate) const KEY_SECS: [f64; 6] = [0.0, 0.3, 0.6, 1.1, 1.6, 2.4];
+
+/// The walk's clip.
+pub(crate) fn clip(figure: &Arc<Figure>) -> Arc<Clip> {
+    let mut keyframes = Keyframes::new(figure.clone());
+    for (index, secs) in KEY_SECS.into_iter().enumerate() {
+        let phase = index as f64 * std::f64::consts::PI / 2.5 + 0.4;
+        let key = FigureKey {
+            secs,
+            pose: pose(figure, phase),
+        };
+        keyframes = keyframes.with_key(key).expect("times ascend");
+    }
+    Arc::new(Clip::build(&keyframes).expect("six keys make a clip"))
+}
+
+/// The figure at a time of the clip.
+pub(crate) fn figure_view(figure: &Arc<Figure>, clip: &Clip, secs: f64) -> FigureView {
+    let mut pose = figure.rest_pose();
+    clip.sample(secs, &mut pose);
+    let mut placed = Vec::new();
+    clip.place(secs, &mut placed);
+    FigureView {
+        figure: figure.clone(),
+        shapes: Arc::new(shapes()),
+        pose,
+        placed,
+        selected: None,
+        cursor: None,
+        candidates: Vec::new(),
+        posing: false,
+    }
+}
+
+fn kinetics(clip: &Clip) -> KineticsView {
+    let curve = (0..=160).map(|i| {
+        let secs = 2.4 * f64::from(i) / 160.0;
+        [secs, clip.kinetics().u(secs)]
+    });
+    let coefficients = clip.kinetics().coefficients();
+    let last = (coefficients.len() - 1) as f64;
+    KineticsView {
+        mode: "natural".into(),
+        curve: curve.collect(),
+        coefficients: coefficients
+            .iter()
+            .enumerate()
+            .map(|(i, &u)| [2.4 * i as f64 / last, u])
+            .collect(),
+        selected: None,
+        reversals: Vec::new(),
+    }
+}
+
+/// Dial pages as the shipped network labels them.
+const DIALS: [&str; 8] = [
+    "X-Rot", "Y-Rot", "Zoom", "Time", "Twist", "Link", "Kinetic", "Speed",
+];
+const KEYS: [&str; 12] = [
+    "PLACE", "NEAR/FAR", "STORE", "DELETE", "PREV KEY", "NEXT KEY", "PLAY", "LOOP", "FOLLOW", "ARM", "HOLD",
+    "PAGE",
+];
+
+/// Joints of the marionette.
+const JOINTS: [&str; 20] = [
+    "neck_yaw",
+    "neck_pitch",
+    "r_shoulder_pitch",
+    "r_shoulder_roll",
+    "r_elbow",
+    "r_wrist",
+    "l_shoulder_pitch",
+    "l_shoulder_roll",
+    "l_elbow",
+    "l_wrist",
+    "waist_yaw",
+    "waist_pitch",
+    "r_hip_roll",
+    "r_hip_pitch",
+    "r_knee",
+    "r_ankle",
+    "l_hip_roll",
+    "l_hip_pitch",
+    "l_knee",
+    "l_ankle",
+];
+
+fn joints() -> Vec<JointView> {
+    let joint = |(index, name): (usize, &&str)| {
+        let goal = (index as f64 * 0.7).sin() * 0.9;
+        JointView {
+            name: (*name).to_owned(),
+            goal_rad: Some(goal),
+            measured_rad: Some(goal + 0.06 * (index as f64 * 1.9).cos()),
+            age_secs: 0.012,
+            range_rad: [-1.6, 1.6],
+            temperature_c: Some(38.0),
+            voltage_v: Some(11.9),
+            present: true,
+            error: None,
+        }
+    };
+    JOINTS.iter().enumerate().map(joint).collect()
+}
+
+fn puppet() -> PuppetView {
+    PuppetView {
+        name: "marionette".into(),
+        state: PuppetState::Playing,
+        fault: None,
+        joints: joints(),
+        clip_secs: Some(0.86),
+        stale_discarded: 0,
+        interventions: 3,
+        late_cycles: 1,
+    }
+}
+
+fn devices() -> Vec<DeviceView> {
+    let device = |name: &str, profile: &str, health, events| DeviceView {
+        name: name.into(),
+        profile: profile.into(),
+        address: format!("sim:{name}"),
+        health,
+        events,
+        rejected: 0,
+    };
+    vec![
+        device("dial-box", "sgi-dialbox-display", DeviceHealth::Present, 1284),
+        device("tablet", "graphire-serial", DeviceHealth::Present, 20_671),
+    ]
+}
+
+/// Playing, with a puppet and a desk.
+pub(crate) fn playing() -> Snapshot {
+    let figure = figure();
+    let clip = clip(&figure);
+    let secs = 0.86;
+    let mut seen = Snapshot {
+        at_secs: 93.0,
+        step: 9300,
+        show: "first steps".into(),
+        unsaved: true,
+        figure: Some(figure_view(&figure, &clip, secs)),
+        clip_name: "walk".into(),
+        keys: KEY_SECS
+            .iter()
+            .map(|&secs| KeyView {
+                secs,
+                selected: false,
+            })
+            .collect(),
+        kinetics: kinetics(&clip),
+        clip: Some(clip),
+        transport: TransportView {
+            secs,
+            start_secs: 0.0,
+            end_secs: 2.4,
+            playing: true,
+            looped: true,
+            speed: 1.0,
+        },
+        view: ViewState {
+            azimuth_rad: 0.6,
+            elevation_rad: 0.12,
+            scale: 1.45,
+            centre: DVec3::new(0.0, 0.74, 0.0),
+        },
+        puppet: Some(puppet()),
+        devices: devices(),
+        undo: Some("store key 6".into()),
+        notes: vec![Note {
+            at_secs: 92.0,
+            level: NoteLevel::Info,
+            text: "the puppet has reached the clip's first pose".into(),
+        }],
+        ..Snapshot::default()
+    };
+    for (dial, label) in seen.desk.dials.iter_mut().zip(DIALS) {
+        dial.label = label.into();
+    }
+    for (index, dial) in seen.desk.dials.iter_mut().enumerate() {
+        dial.turns = index as f64 * 0.37 - 0.6;
+    }
+    seen.desk.dials[3].live = true;
+    for (key, label) in seen.desk.keys.iter_mut().zip(KEYS) {
+        *key = DeskKeyView {
+            label: label.into(),
+            lit: false,
+            down: false,
+        };
+    }
+    seen.desk.keys[6].lit = true;
+    seen.desk.keys[7].lit = true;
+    seen.desk.simulated_device = Some("dial-box".into());
+    seen
+}
+
+/// Posing a forearm, nothing playing, the puppet stopped by hand.
+pub(crate) fn posing() -> Snapshot {
+    let mut seen = playing();
+    seen.transport = TransportView {
+        secs: 0.6,
+        playing: false,
+        looped: false,
+        ..seen.transport
+    };
+    seen.keys[2].selected = true;
+    if let (Some(view), Some(clip)) = (&mut seen.figure, &seen.clip) {
+        *view = figure_view(&view.figure.clone(), clip, 0.6);
+        let link = view.placed[3];
+        view.selected = Some(3);
+        view.posing = true;
+        view.candidates = vec![
+            link.end,
+            link.start + (link.end - link.start) * DVec3::new(1.0, 1.0, -1.0),
+        ];
+        view.cursor = Some(DVec2::new(-0.34, 0.18));
+    }
+    if let Some(puppet) = &mut seen.puppet {
+        puppet.state = PuppetState::Faulted;
+        puppet.fault =
+            Some("servo 5 (r_elbow) reports overload; free the joint, then reset and arm again".into());
+        puppet.clip_secs = None;
+        puppet.joints[4].error = Some("overload".into());
+        puppet.joints[9].present = false;
+    }
+    seen.desk.dials[3].live = false;
+    seen.desk.keys[6].lit = false;
+    seen.desk.keys[7].lit = false;
+    seen.devices[1].health = DeviceHealth::Lost;
+    seen.unsaved = false;
+    seen.redo = Some("move key 3".into());
+    seen
+}
