@@ -106,6 +106,21 @@ impl GreatCircle {
         }
     }
 
+    /// The unit direction at s = 0.
+    pub fn from(&self) -> DVec3 {
+        self.from
+    }
+
+    /// The unit direction of setting out, at a right angle to [`GreatCircle::from`].
+    pub fn towards(&self) -> DVec3 {
+        self.towards
+    }
+
+    /// How far it really goes, radians: what [`GreatCircle::angle_rad`] calls 0 may be a trace above it.
+    pub(crate) fn whole_rad(&self) -> f64 {
+        self.angle_rad
+    }
+
     /// Whether the ends are opposite, so that the plane was chosen and not given.
     pub fn ambiguous(&self) -> bool {
         self.kind == Kind::Opposite

@@ -18,6 +18,7 @@ pub use place::Placed;
 pub use sweep::{Sweep, TwistLaw};
 
 pub(crate) use great_circle::unit;
+pub(crate) use sweep::twist_of;
 
 use glam::DVec3;
 

@@ -84,6 +84,15 @@ impl Sweep {
         &self.circle
     }
 
+    /// The angle that turns the frame's x axis from its reference, at s = 0, and its change until s = 1;
+    /// the reference is the direction of travel, or under `Zyz` the untwisted frame.
+    pub(crate) fn rolling(&self) -> [f64; 2] {
+        match self.twist_law {
+            TwistLaw::Transport => [self.roll_rad, self.roll_change_rad],
+            TwistLaw::Zyz => [self.twist_rad, self.twist_change_rad],
+        }
+    }
+
     /// The link's length at s.
     pub fn length(&self, s: f64) -> f64 {
         self.length + self.length_change * s
@@ -122,13 +131,7 @@ impl Sweep {
         let even = self.twist_rad + self.twist_change_rad * s;
         match self.twist_law {
             TwistLaw::Zyz => even,
-            TwistLaw::Transport => {
-                let frame = self.frame(s);
-                let untwisted = frame_of(frame.z_axis);
-                let x = frame.x_axis;
-                let wrapped = angle(x.dot(untwisted.y_axis), x.dot(untwisted.x_axis));
-                wrapped + TAU * ((even - wrapped) / TAU).round()
-            }
+            TwistLaw::Transport => twist_of(&self.frame(s), even),
         }
     }
 
@@ -140,4 +143,12 @@ impl Sweep {
             length: self.length(s),
         }
     }
+}
+
+/// The twist angle of a frame over its direction's own frame, of all its turns the one nearest to `near`.
+pub(crate) fn twist_of(world_from_link: &DMat3, near_rad: f64) -> f64 {
+    let untwisted = frame_of(world_from_link.z_axis);
+    let x = world_from_link.x_axis;
+    let wrapped = angle(x.dot(untwisted.y_axis), x.dot(untwisted.x_axis));
+    wrapped + TAU * ((near_rad - wrapped) / TAU).round()
 }
