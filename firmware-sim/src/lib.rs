@@ -10,7 +10,7 @@
 //! Start at [`Firmware`], then [`dial_box`] (the smallest device), [`wacom_iv`], and [`dynamixel`], where
 //! `bus.rs` orders the events on the wire and `servo.rs` is one servo. [`script`] plays hands from a text.
 pub mod dial_box;
-
+pub mod dynamixel;
 mod firmware;
 pub mod hands;
 mod line;
@@ -19,6 +19,7 @@ mod uart;
 pub mod wacom_iv;
 
 pub use dial_box::SgiDialBox;
+pub use dynamixel::{Fault, ServoBus};
 pub use firmware::Firmware;
 pub use script::Script;
 pub use wacom_iv::WacomIv;

@@ -1,0 +1,33 @@
+//! DYNAMIXEL servos with protocol 2.0 on one half-duplex wire.
+//!
+//! `bus` orders what happens on the wire and hands instructions to servos; `wire` carries bytes at their
+//! pace; `receiver` finds packets; `packet` and `crc` are the framing; `servo` is one servo, made of its
+//! `table`, its `trajectory` and its `plant`; `execute` is what an instruction does to it; `fault` is what
+//! may go wrong. Source: `docs/protocols/dynamixel-2.md` (the maker's protocol page and control tables).
+
+mod bus;
+mod chain;
+mod crc;
+mod dispatch;
+mod execute;
+mod fault;
+mod fault_run;
+mod packet;
+mod plant;
+mod receiver;
+mod refresh;
+mod servo;
+mod table;
+mod trajectory;
+mod wire;
+mod write;
+
+pub use bus::{AddError, BusOptions, ServoBus, StatusSent};
+pub use chain::Absent;
+pub use fault::{Fault, FaultError, FaultKind};
+pub use receiver::BadCrc;
+pub use servo::{Counters, Gaps, Sag, Servo, Unit};
+pub use wire::{Adapter, WireTime};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,107 @@
+//! Finds instruction packets in the bytes on the wire, as a servo does: header, number, length, checksum.
+//!
+//! Source: the maker's protocol 2.0 page, "Processing Order of Reception". The page says that a servo drops
+//! a packet whose bytes lie more than 1.5 ms apart. What happens after a wrong checksum it does not say:
+//! the maker's own device-side library stays silent, so that is the default here.
+
+use super::crc;
+use super::packet::{HEADER, unstuff};
+
+/// Longest idle time between two bytes of one packet.
+const GAP_MAX_NS: u64 = 1_500_000;
+/// Longest packet a servo has room for. Ours: the whole table fits several times.
+const LENGTH_MAX: usize = 2048;
+/// Bytes before the counted ones: header, number, length.
+const PREFIX: usize = 7;
+
+/// What a servo does with a packet whose checksum is wrong.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BadCrc {
+    /// Drops it.
+    #[default]
+    Silent,
+    /// Answers error 3, if the packet was for it alone.
+    Answer,
+}
+
+/// A packet just completed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Heard {
+    /// `Receiver::params` has the parameters.
+    Instruction { id: u8, instruction: u8 },
+    /// The checksum was wrong.
+    BadCrc { id: u8 },
+}
+
+/// The bytes of the packet in hand.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Receiver {
+    packet: Vec<u8>,
+    params_end: usize,
+    last_ns: Option<u64>,
+    /// Packets dropped: by a gap, a length no servo can take, or a wrong checksum.
+    pub(super) dropped: u64,
+}
+
+impl Receiver {
+    /// Takes the byte that began at `start_ns` and was complete at `end_ns`.
+    pub(super) fn push(&mut self, start_ns: u64, end_ns: u64, byte: u8) -> Option<Heard> {
+        let late = self
+            .last_ns
+            .is_some_and(|last| start_ns.saturating_sub(last) > GAP_MAX_NS);
+        if late && !self.packet.is_empty() {
+            self.dropped += u64::from(self.packet.len() > HEADER.len());
+            self.packet.clear();
+        }
+        self.last_ns = Some(end_ns);
+        if self.packet.len() < HEADER.len() {
+            self.seek(byte);
+            return None;
+        }
+        self.packet.push(byte);
+        if self.packet.len() < PREFIX {
+            return None;
+        }
+        let counted = usize::from(u16::from_le_bytes([self.packet[5], self.packet[6]]));
+        if !(3..=LENGTH_MAX).contains(&counted) {
+            self.dropped += 1;
+            self.packet.clear();
+            return None;
+        }
+        (self.packet.len() == PREFIX + counted).then(|| self.complete())
+    }
+
+    /// Parameters of the instruction last heard, valid until the next byte.
+    pub(super) fn params(&self) -> &[u8] {
+        self.packet.get(PREFIX + 1..self.params_end).unwrap_or_default()
+    }
+
+    /// Makes room for the next packet; to be called when the parameters have been used.
+    pub(super) fn clear(&mut self) {
+        self.packet.clear();
+    }
+
+    /// Grows the longest part of a header that the bytes so far end with.
+    fn seek(&mut self, byte: u8) {
+        self.packet.push(byte);
+        while !self.packet.is_empty() && !HEADER.starts_with(&self.packet) {
+            self.packet.remove(0);
+        }
+    }
+
+    fn complete(&mut self) -> Heard {
+        let end = self.packet.len() - 2;
+        let id = self.packet[4];
+        let sent = u16::from_le_bytes([self.packet[end], self.packet[end + 1]]);
+        if crc::extend(0, &self.packet[..end]) != sent {
+            self.dropped += 1;
+            self.params_end = 0;
+            return Heard::BadCrc { id };
+        }
+        self.params_end = unstuff(&mut self.packet, PREFIX, end);
+        Heard::Instruction {
+            id,
+            instruction: self.packet[PREFIX],
+        }
+    }
+}
