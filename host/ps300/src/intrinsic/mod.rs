@@ -1,0 +1,67 @@
+//! The intrinsic functions: what `name := F:TYPE;` can make.
+//!
+//! One table row each, with where it is known from and how far it can be trusted; the reference page and
+//! `net functions` are generated from the same rows. Start at [`table`] and [`Spec`].
+//! Source: `docs/protocols/ps300.md`, "Intrinsic functions"; what the record leaves open is decided there
+//! under "What dialrig decides" and marked [`Confidence::Project`] where a whole row is ours.
+
+mod absent;
+mod accumulate;
+mod arithmetic;
+mod clock;
+mod compare;
+mod filter;
+mod function;
+mod logic;
+mod matrix;
+mod numbers;
+mod rotate;
+mod route;
+mod spec;
+mod store;
+mod text;
+mod vector;
+mod view;
+
+pub use absent::{ABSENT, Absent};
+pub(crate) use function::Errand;
+pub use function::{Fault, Function, Inputs, Now, Outputs, TEXT_MAX_BYTES};
+pub(crate) use spec::Does;
+pub use spec::{Confidence, InputSpec, OutputSpec, Preset, Spec, Times};
+pub(crate) use store::VARIABLE;
+
+/// Every function that can be instanced, in the order of the reference page.
+pub fn table() -> impl Iterator<Item = &'static Spec> {
+    [
+        accumulate::TABLE,
+        arithmetic::TABLE,
+        numbers::TABLE,
+        logic::TABLE,
+        compare::TABLE,
+        route::TABLE,
+        filter::TABLE,
+        store::TABLE,
+        vector::TABLE,
+        rotate::TABLE,
+        matrix::TABLE,
+        view::TABLE,
+        text::TABLE,
+        clock::TABLE,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// The function `name`, in any case.
+pub fn find(name: &str) -> Option<&'static Spec> {
+    table().find(|spec| spec.name.eq_ignore_ascii_case(name))
+}
+
+/// Functions whose names are near `name`, at most three.
+pub(crate) fn alike(name: &str) -> Vec<&'static str> {
+    let mut near: Vec<_> = table()
+        .filter_map(|spec| Some((crate::names::distance(spec.name, name, 2)?, spec.name)))
+        .collect();
+    near.sort_unstable();
+    near.into_iter().take(3).map(|(_, name)| name).collect()
+}

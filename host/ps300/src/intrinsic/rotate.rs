@@ -1,0 +1,86 @@
+//! Rotation matrices, from an angle or from movements that add up to one.
+//!
+//! Positive by the right-hand formula: the first row about z is (cos, -sin, 0).
+
+use glam::DMat3;
+
+use super::function::{Fault, Function, Inputs, Outputs, domain};
+use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use crate::value::{Kind, Kinds};
+
+const MATRIX3: OutputSpec = OutputSpec::of(Kinds::of(&[Kind::Matrix3]));
+
+const ANGLE_IN: &[InputSpec] = &[InputSpec::active(Kinds::NUMBER)];
+
+macro_rules! absolute {
+    ($name:literal, $about:expr, $source:literal, $confidence:ident) => {
+        Spec {
+            name: $name,
+            sizes: None,
+            inputs: ANGLE_IN,
+            outputs: &[MATRIX3],
+            does: Does::Pure(|inputs, outputs| {
+                outputs.send(1, $about(inputs.number(1)?.to_radians()));
+                Ok(())
+            }),
+            behaviour: "The rotation by an angle in degrees.",
+            source: $source,
+            confidence: Confidence::$confidence,
+        }
+    };
+}
+
+macro_rules! integrating {
+    ($name:literal, $about:expr) => {
+        Spec {
+            name: $name,
+            sizes: None,
+            inputs: &[
+                InputSpec::active(Kinds::NUMBER),
+                InputSpec::constant(Kinds::NUMBER, Preset::Real(0.0)),
+                InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
+            ],
+            outputs: &[MATRIX3, OutputSpec::of(Kinds::REAL)],
+            does: Does::Stateful(|_| Box::new(Turning { about: $about, degrees: None })),
+            behaviour: "Running angle in degrees: the start <2> plus every <1> times the scale <3>. Output <1> the \
+                        rotation by it, <2> the angle. Sending <2> starts anew from there without sending.",
+            source: "D0 dial networks for the inputs and output 1; output 2 recollected; defaults ours",
+            confidence: Confidence::Used,
+        }
+    };
+}
+
+pub(super) const TABLE: &[Spec] = &[
+    absolute!("XROTATE", DMat3::from_rotation_x, "recollected", High),
+    absolute!("YROTATE", DMat3::from_rotation_y, "recollected", High),
+    absolute!("ZROTATE", DMat3::from_rotation_z, "D0 viewing networks", Used),
+    integrating!("DXROTATE", DMat3::from_rotation_x),
+    integrating!("DYROTATE", DMat3::from_rotation_y),
+    integrating!("DZROTATE", DMat3::from_rotation_z),
+];
+
+struct Turning {
+    about: fn(f64) -> DMat3,
+    degrees: Option<f64>,
+}
+
+impl Function for Turning {
+    fn constant_set(&mut self, number: u8) {
+        if number == 2 {
+            self.degrees = None;
+        }
+    }
+
+    fn fire(&mut self, inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
+        let start = inputs.number(2)?;
+        let old = self.degrees.filter(|_| inputs.is_constant(2)).unwrap_or(start);
+        let degrees = old + inputs.number(1)? * inputs.number(3)?;
+        if !degrees.is_finite() {
+            return domain("the angle is not finite; it was left as it was");
+        }
+        self.degrees = Some(degrees);
+        outputs.send(1, (self.about)(degrees.to_radians()));
+        outputs.send(2, degrees);
+        Ok(())
+    }
+}

@@ -1,0 +1,56 @@
+//! Whole programs.
+
+use super::Machine;
+use crate::language::{Command, Definition, Diagnostic, Located, Name, Node, Position, parse};
+
+impl Machine {
+    /// Reads a program and executes it command by command. What could not be read or executed is left out
+    /// and named, in the order of the text; so is what display nodes refer to and nothing defines.
+    pub fn load(&mut self, source: &str) -> Vec<Diagnostic> {
+        let (commands, mut diagnostics) = parse(source);
+        let mut referred = Vec::new();
+        for Located { at, what } in &commands {
+            match self.execute(what) {
+                Ok(()) => references(what, *at, &mut referred),
+                Err(error) => diagnostics.push(Diagnostic::error(*at, error.to_string())),
+            }
+        }
+        for (at, name) in referred {
+            if self.names.thing(&name).is_none() {
+                let message = format!("{name} is used here and nothing defines it");
+                diagnostics.push(Diagnostic::warning(at, message));
+            }
+        }
+        diagnostics.sort_by_key(|diagnostic| (diagnostic.line, diagnostic.column));
+        diagnostics
+    }
+}
+
+/// The names a command uses that may still be undefined when it is executed.
+fn references(command: &Command, at: Position, into: &mut Vec<(Position, Name)>) {
+    match command {
+        Command::Define {
+            definition: Definition::Node(node),
+            ..
+        } => node_references(node, at, into),
+        Command::Include { member, .. } => into.push((at, member.clone())),
+        Command::Display(name) => into.push((at, name.clone())),
+        _ => {}
+    }
+}
+
+fn node_references(node: &Node, at: Position, into: &mut Vec<(Position, Name)>) {
+    match node {
+        Node::Instance(of) => into.extend(of.iter().map(|name| (at, name.clone()))),
+        Node::Operation {
+            applied_to: Some(name),
+            ..
+        } => into.push((at, name.clone())),
+        Node::Structure(members) => {
+            for member in members {
+                node_references(&member.node, at, into);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,341 @@
+//! The machine: names, network, display tree and front panel, driven by commands and by the host.
+//!
+//! Everything a host does goes through [`Machine`]. Commands take effect one at a time, and the network
+//! runs until it is quiet (or out of budget) before the next. Messages of the host (`emit`, `send`) wait
+//! for the next tick or command.
+
+pub mod devices;
+mod dot;
+mod error;
+mod execute;
+mod load;
+mod panel;
+mod program;
+mod view;
+
+pub use error::{DeclareError, ExecuteError};
+pub use panel::{LABEL_CHARACTERS, Panel};
+pub use view::{ConnectionView, InputView, InstanceView, OutputView};
+
+use std::sync::Arc;
+
+use glam::DMat4;
+
+use crate::display::DisplayList;
+use crate::intrinsic::Now;
+use crate::language::{Input, Name};
+use crate::names::{NameId, Names, Thing};
+use crate::network::{
+    Cause, Inlet, InstanceId, Limits, Network, Outlet, Ran, Refusal, Report, Role, SinkId, Surroundings,
+    Watched,
+};
+use crate::structure::{NodeId, Structure, Walk};
+use crate::value::{Kinds, Value};
+use panel::Readouts;
+
+/// A PS 300 without its hardware.
+pub struct Machine {
+    names: Names,
+    network: Network,
+    structure: Structure,
+    panel: Panel,
+    readouts: Readouts,
+    /// In the order of DISPLAY.
+    displayed: Vec<NameId>,
+    ticks: u64,
+}
+
+impl Default for Machine {
+    fn default() -> Self {
+        Self::with_limits(Limits::default())
+    }
+}
+
+/// The rest of the machine, as the network reaches it.
+struct Around<'a> {
+    names: &'a Names,
+    structure: &'a mut Structure,
+    panel: &'a mut Panel,
+    readouts: &'a Readouts,
+}
+
+impl Surroundings for Around<'_> {
+    fn node(&mut self, to: NodeId, input: Input, value: &Value) -> Result<(), Refusal> {
+        self.structure.feed(to, input, value)
+    }
+
+    fn node_name(&self, to: NodeId) -> (Name, &'static str) {
+        let name = self
+            .structure
+            .slot(to)
+            .map_or_else(|| Name::new("?"), |slot| slot.name.clone());
+        (name, self.structure.what(to))
+    }
+
+    fn sink_arrived(&mut self, sink: SinkId, value: &Value) {
+        self.readouts.show(self.panel, sink, value);
+    }
+
+    fn inlet(&self, name: &str, input: Input) -> Option<Inlet> {
+        match (self.names.thing(&Name::new(name))?, input) {
+            (Thing::Instance(to), Input::Number(number)) => Some(Inlet::Function {
+                to,
+                input: u8::try_from(number).ok()?,
+            }),
+            (Thing::Sink(to), Input::Number(number)) => Some(Inlet::Sink {
+                to,
+                input: u8::try_from(number).ok()?,
+            }),
+            (Thing::Node(to), input) => Some(Inlet::Node { to, input }),
+            _ => None,
+        }
+    }
+
+    fn variable(&self, name: &str) -> Option<InstanceId> {
+        match self.names.thing(&Name::new(name))? {
+            Thing::Instance(id) => Some(id),
+            _ => None,
+        }
+    }
+}
+
+macro_rules! with_network {
+    ($machine:ident, |$network:ident, $around:ident| $do:expr) => {{
+        let $around = &mut crate::machine::Around {
+            names: &$machine.names,
+            structure: &mut $machine.structure,
+            panel: &mut $machine.panel,
+            readouts: &$machine.readouts,
+        };
+        let $network = &mut $machine.network;
+        $do
+    }};
+}
+use with_network;
+
+impl Machine {
+    /// A machine with its devices and nothing else.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The same with other bounds.
+    pub fn with_limits(limits: Limits) -> Self {
+        let mut names = Names::default();
+        let mut network = Network::default();
+        network.limits = limits;
+        let readouts = Readouts::install(&mut network, &mut names);
+        for source in &devices::SOURCES {
+            let name = Name::new(source.name);
+            if let Some(id) = network.add(name.clone(), source, None, Role::Device) {
+                names.fix(&name, Thing::Instance(id));
+            }
+        }
+        let structure = Structure::default();
+        Self {
+            names,
+            network,
+            structure,
+            panel: Panel::default(),
+            readouts,
+            displayed: Vec::new(),
+            ticks: 0,
+        }
+    }
+
+    /// An output of a device or function, for [`Machine::emit_from`]. Ask again after commands that may
+    /// have deleted or redefined `name`; devices stay.
+    pub fn outlet(&self, name: &str, output: u8) -> Option<Outlet> {
+        match self.names.thing(&Name::new(name))? {
+            Thing::Instance(id) => self.network.outlet(id, output),
+            _ => None,
+        }
+    }
+
+    /// How many inputs an output feeds. A host need not compute what nobody listens to.
+    pub fn listeners(&self, from: Outlet) -> usize {
+        self.network.destinations(from).len()
+    }
+
+    /// Sends on an output as if the device had: `emit("DIALS", 3, 0.25)`. Queues only; the next tick or
+    /// command runs the network. False if there is no such output.
+    pub fn emit(&mut self, name: &str, output: u8, value: impl Into<Value>) -> bool {
+        match self.outlet(name, output) {
+            Some(from) => {
+                self.emit_from(from, value);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// The same without looking up a name.
+    pub fn emit_from(&mut self, from: Outlet, value: impl Into<Value>) {
+        with_network!(self, |network, around| network.send_out(
+            from,
+            value.into(),
+            around
+        ));
+    }
+
+    /// Sends to an input, as the command SEND would, without running the network.
+    pub fn send(&mut self, name: &str, input: Input, value: impl Into<Value>) -> Result<(), ExecuteError> {
+        self.deliver(&Name::new(name), input, &value.into())
+    }
+
+    /// Moves network time, lets the clocks send, and fires at most `firings_max` instances. What is left
+    /// goes on, in the same order, at the next tick. Time that runs backwards stands still.
+    pub fn tick(&mut self, secs: f64, frame: u64, firings_max: u32) -> Ran {
+        self.ticks += 1;
+        let before = self.network.now;
+        let secs = if secs >= before.secs { secs } else { before.secs };
+        let now = Now {
+            secs,
+            frame: frame.max(before.frame),
+            ticks: self.ticks,
+        };
+        with_network!(self, |network, around| {
+            network.advance(now, around);
+            network.run(firings_max, around)
+        })
+    }
+
+    fn run(&mut self) -> Ran {
+        let firings = self.network.limits.firings_per_command;
+        with_network!(self, |network, around| network.run(firings, around))
+    }
+
+    /// Declares a host parameter with inputs <1>, <2>…, so that networks can be connected to it.
+    /// Declare before loading what connects to it.
+    pub fn declare_sink(&mut self, name: &str, inputs: &[Kinds]) -> Result<SinkId, DeclareError> {
+        let name = Name::new(name);
+        if !Name::is_valid(name.as_str()) {
+            return Err(DeclareError::NotAName { name });
+        }
+        if inputs.is_empty() || inputs.len() > 127 {
+            return Err(DeclareError::Inputs {
+                name,
+                count: inputs.len(),
+            });
+        }
+        if self.names.thing(&name).is_some() {
+            return Err(DeclareError::Taken { name });
+        }
+        let id = self.network.add_sink(name.clone(), inputs);
+        self.names.fix(&name, Thing::Sink(id));
+        Ok(id)
+    }
+
+    /// Hands over every message that reached a sink, in the order of arrival: sink, its name, the input
+    /// from 1, the value.
+    pub fn drain_sinks(&mut self, take: impl FnMut(SinkId, &str, u8, Value)) {
+        self.network.drain_sinks(take);
+    }
+
+    /// The last message at an input of a sink, drained or not.
+    pub fn sink_last(&self, sink: SinkId, input: u8) -> Option<&Value> {
+        self.network.sink_last(sink, input)
+    }
+
+    /// Labels, lamps and message line.
+    pub fn panel(&self) -> &Panel {
+        &self.panel
+    }
+
+    /// Counts changes of the display tree: a picture drawn at the same number is still right.
+    pub fn picture_revision(&self) -> u64 {
+        self.structure.revision
+    }
+
+    /// All that is displayed.
+    pub fn display(&self) -> DisplayList {
+        let mut list = DisplayList::default();
+        self.display_into(&mut list);
+        list
+    }
+
+    /// The same into a list whose memory is used again.
+    pub fn display_into(&self, list: &mut DisplayList) {
+        list.clear();
+        let mut walk = Walk::new(&self.structure, &self.names, list);
+        for &name in &self.displayed {
+            walk.draw(name, DMat4::IDENTITY);
+        }
+    }
+
+    /// What one name denotes, displayed or not, placed by `world_from_model`. Empty if it denotes nothing
+    /// that can be drawn.
+    pub fn display_of(&self, name: &str, world_from_model: DMat4) -> DisplayList {
+        let mut list = DisplayList::default();
+        if let Some(name) = self.names.find(&Name::new(name)) {
+            Walk::new(&self.structure, &self.names, &mut list).draw(name, world_from_model);
+        }
+        list
+    }
+
+    /// Whether commands, the host or the machine itself have given `name` a meaning.
+    pub fn is_defined(&self, name: &str) -> bool {
+        self.names.thing(&Name::new(name)).is_some()
+    }
+
+    /// Records every message of an output from now on. False if there is no such output.
+    pub fn watch(&mut self, name: &str, output: u8) -> bool {
+        self.set_watched(name, output, true)
+    }
+
+    /// Stops recording.
+    pub fn unwatch(&mut self, name: &str, output: u8) -> bool {
+        self.set_watched(name, output, false)
+    }
+
+    fn set_watched(&mut self, name: &str, output: u8, on: bool) -> bool {
+        let from = self.outlet(name, output);
+        if let Some(from) = from {
+            self.network.watch(from, on);
+        }
+        from.is_some()
+    }
+
+    /// The watched messages since the last call, in the order they were sent.
+    pub fn drain_watched(&mut self) -> impl Iterator<Item = Watched> + '_ {
+        self.network.drain_watched()
+    }
+
+    /// What went wrong since the last call.
+    pub fn reports(&mut self) -> Vec<Report> {
+        self.network.reports.drain()
+    }
+
+    /// Network time at the last tick.
+    pub fn secs(&self) -> f64 {
+        self.network.now.secs
+    }
+
+    fn note(&mut self, name: &Name, what: &str, cause: Cause) {
+        self.network.reports.note(name, what, cause);
+    }
+
+    /// The value a variable or constant holds at its first input.
+    pub fn held(&self, name: &str) -> Option<&Value> {
+        match self.names.thing(&Name::new(name))? {
+            Thing::Instance(id) => self.network.held(id),
+            _ => None,
+        }
+    }
+}
+
+/// Shown wherever a text needs to say which inputs there are.
+fn numbered_inputs(count: usize) -> String {
+    match count {
+        0 => "none".to_owned(),
+        1 => "<1>".to_owned(),
+        _ => format!("<1> to <{count}>"),
+    }
+}
+
+/// Text as a message.
+impl From<Arc<str>> for Value {
+    fn from(text: Arc<str>) -> Self {
+        Self::String(text)
+    }
+}

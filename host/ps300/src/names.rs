@@ -1,0 +1,214 @@
+//! The one name space that functions, nodes, devices and host parameters share.
+//!
+//! A name is an entry of its own, and display nodes refer to entries: redefining a name changes what
+//! every reference to it means, FORGET takes the name away and leaves the references.
+//! Source: `docs/protocols/ps300.md`, "Two graphs sharing one name space" and "Commands".
+
+use std::collections::BTreeMap;
+
+use crate::language::Name;
+use crate::network::{InstanceId, SinkId};
+use crate::structure::NodeId;
+
+/// A name's entry; stays valid as long as the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct NameId(pub(crate) u32);
+
+/// What a name denotes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Thing {
+    Instance(InstanceId),
+    Node(NodeId),
+    Sink(SinkId),
+}
+
+/// One name, or what is left of it after FORGET.
+pub(crate) struct Entry {
+    /// As first written.
+    pub(crate) name: Name,
+    pub(crate) thing: Option<Thing>,
+    /// Made by the machine or the host: commands do not redefine or delete it.
+    pub(crate) fixed: bool,
+    /// Made by a label inside a structure, with which it comes and goes.
+    pub(crate) label: bool,
+    /// Whether display nodes refer to it, or did.
+    pub(crate) referenced: bool,
+    /// Whether the name still leads here.
+    pub(crate) known: bool,
+    /// Counts definitions; listings are in this order.
+    pub(crate) defined: u64,
+}
+
+/// All names.
+#[derive(Default)]
+pub(crate) struct Names {
+    entries: Vec<Entry>,
+    by_name: BTreeMap<Name, NameId>,
+    definitions: u64,
+}
+
+impl Names {
+    pub(crate) fn entry(&self, id: NameId) -> &Entry {
+        &self.entries[id.0 as usize] // Ids come from `intern` only and entries are never removed.
+    }
+
+    fn entry_mut(&mut self, id: NameId) -> &mut Entry {
+        &mut self.entries[id.0 as usize] // As above.
+    }
+
+    pub(crate) fn find(&self, name: &Name) -> Option<NameId> {
+        self.by_name.get(name).copied()
+    }
+
+    /// The thing `name` denotes.
+    pub(crate) fn thing(&self, name: &Name) -> Option<Thing> {
+        self.find(name).and_then(|id| self.entry(id).thing)
+    }
+
+    /// The thing an entry denotes.
+    pub(crate) fn denoted(&self, id: NameId) -> Option<Thing> {
+        self.entry(id).thing
+    }
+
+    /// The node an entry denotes.
+    pub(crate) fn node(&self, id: NameId) -> Option<NodeId> {
+        match self.entry(id).thing {
+            Some(Thing::Node(node)) => Some(node),
+            _ => None,
+        }
+    }
+
+    /// The entry of `name`, made if there is none.
+    pub(crate) fn intern(&mut self, name: &Name) -> NameId {
+        if let Some(id) = self.find(name) {
+            return id;
+        }
+        let id = NameId(self.entries.len() as u32);
+        self.entries.push(Entry {
+            name: name.clone(),
+            thing: None,
+            fixed: false,
+            label: false,
+            referenced: false,
+            known: true,
+            defined: 0,
+        });
+        self.by_name.insert(name.clone(), id);
+        id
+    }
+
+    /// The same, noting that a display node refers to it.
+    pub(crate) fn refer(&mut self, name: &Name) -> NameId {
+        let id = self.intern(name);
+        self.entry_mut(id).referenced = true;
+        id
+    }
+
+    pub(crate) fn define(&mut self, name: &Name, thing: Thing) -> NameId {
+        let id = self.intern(name);
+        self.definitions += 1;
+        let defined = self.definitions;
+        let entry = self.entry_mut(id);
+        entry.thing = Some(thing);
+        entry.defined = defined;
+        entry.label = false;
+        id
+    }
+
+    /// Defines the label of a structure's member by its full name.
+    pub(crate) fn define_label(&mut self, name: &Name, node: NodeId) {
+        let id = self.define(name, Thing::Node(node));
+        self.entry_mut(id).label = true;
+    }
+
+    /// Defines what commands may not redefine.
+    pub(crate) fn fix(&mut self, name: &Name, thing: Thing) {
+        let id = self.define(name, thing);
+        self.entry_mut(id).fixed = true;
+    }
+
+    /// The name stays and denotes nothing.
+    pub(crate) fn clear(&mut self, id: NameId) {
+        let entry = self.entry_mut(id);
+        entry.thing = None;
+        entry.label = false;
+    }
+
+    /// The entry stays and the name leads to it no longer.
+    pub(crate) fn forget(&mut self, id: NameId) {
+        let name = self.entry(id).name.clone();
+        self.by_name.remove(&name);
+        self.entry_mut(id).known = false;
+    }
+
+    /// The name of an entry; for one that was forgotten, a name nothing else bears.
+    pub(crate) fn spelling(&self, id: NameId) -> Name {
+        let entry = self.entry(id);
+        if entry.known {
+            return entry.name.clone();
+        }
+        let mut spare = Name::new(&format!("{}${}", entry.name, id.0));
+        while self.by_name.contains_key(&spare) {
+            spare = Name::new(&format!("{spare}$"));
+        }
+        spare
+    }
+
+    /// Every entry that denotes something commands made, in the order of definition.
+    pub(crate) fn defined(&self) -> Vec<NameId> {
+        let mut ids: Vec<_> = (0..self.entries.len() as u32)
+            .map(NameId)
+            .filter(|&id| self.entry(id).thing.is_some() && !self.entry(id).fixed)
+            .collect();
+        ids.sort_by_key(|&id| self.entry(id).defined);
+        ids
+    }
+
+    /// Every known name that begins so, whatever it denotes.
+    pub(crate) fn beginning(&self, prefix: &Name) -> Vec<NameId> {
+        let prefix = prefix.as_str();
+        self.by_name
+            .iter()
+            .filter(|(name, _)| {
+                let start = name.as_str().as_bytes().get(..prefix.len());
+                start.is_some_and(|start| start.eq_ignore_ascii_case(prefix.as_bytes()))
+            })
+            .map(|(_, &id)| id)
+            .collect()
+    }
+
+    /// Names that might have been meant by one that denotes nothing, at most three.
+    pub(crate) fn alike(&self, name: &Name) -> Vec<Name> {
+        let limit = (name.as_str().len() / 3).clamp(1, 3);
+        let mut near: Vec<_> = self
+            .by_name
+            .iter()
+            .filter(|&(_, &id)| self.entry(id).thing.is_some())
+            .filter_map(|(known, _)| {
+                let far = distance(known.as_str(), name.as_str(), limit)?;
+                Some((far, known.clone()))
+            })
+            .collect();
+        near.sort();
+        near.into_iter().take(3).map(|(_, name)| name).collect()
+    }
+}
+
+/// How many letters must change, at most `limit`; case does not count. Long names are not compared.
+pub(crate) fn distance(a: &str, b: &str, limit: usize) -> Option<usize> {
+    if a.len().abs_diff(b.len()) > limit || a.len() > 40 {
+        return None;
+    }
+    let (a, b) = (a.to_ascii_lowercase(), b.to_ascii_lowercase());
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.bytes().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.bytes().enumerate() {
+            let above = row[j + 1];
+            row[j + 1] = (diagonal + usize::from(x != y)).min(above + 1).min(row[j] + 1);
+            diagonal = above;
+        }
+    }
+    row.last().copied().filter(|&far| far <= limit)
+}

@@ -1,0 +1,149 @@
+//! What went wrong while the network ran, gathered so that a loop cannot flood anybody.
+
+use std::fmt;
+
+use crate::language::{Input, Name};
+use crate::network::connection::input_text;
+use crate::value::{Kind, Kinds};
+
+/// Something dropped, refused or postponed, and how often since the reports were last taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// The instance, node or host input it happened at.
+    pub name: Name,
+    /// What that is: `F:ADDC`, `ROTATE node`, `host input`.
+    pub what: String,
+    /// What happened.
+    pub cause: Cause,
+    /// How often.
+    pub count: u32,
+}
+
+/// What happened.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cause {
+    /// A message of the wrong kind was dropped.
+    Kind {
+        /// Where it arrived.
+        input: Input,
+        /// What would have been taken.
+        expected: Kinds,
+        /// What came.
+        got: Kind,
+    },
+    /// A message had no answer, or could not be acted on; it was consumed.
+    Domain {
+        /// As a clause.
+        why: &'static str,
+    },
+    /// A number that is infinite or none was not sent on.
+    NotFinite,
+    /// The queue was full; the newest message was dropped.
+    QueueFull {
+        /// Which queue.
+        input: Input,
+    },
+    /// The whole network holds as many messages as it may; the newest was dropped.
+    NetworkFull,
+    /// The firings allowed were used up with this instance next in turn; it goes on at the next tick.
+    OutOfBudget,
+    /// F:SEND or F:FETCH named something that is not there.
+    Unknown {
+        /// What was asked for.
+        name: String,
+    },
+    /// CONNECT of a pair already connected changed nothing.
+    AlreadyConnected {
+        /// The other end.
+        to: String,
+    },
+    /// Too many different things went wrong to list; `count` says how many more.
+    Unlisted,
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.cause == Cause::Unlisted {
+            return write!(f, "{} further reports are not listed", self.count);
+        }
+        write!(f, "{} ({}): ", self.name, self.what)?;
+        match &self.cause {
+            Cause::Kind { input, expected, got } => {
+                write!(
+                    f,
+                    "input {} takes {expected}, got {got}; the message was dropped",
+                    input_text(*input)
+                )?;
+            }
+            Cause::Domain { why } => f.write_str(why)?,
+            Cause::NotFinite => f.write_str("the result is not a finite number; it was not sent")?,
+            Cause::QueueFull { input } => {
+                write!(
+                    f,
+                    "the queue of input {} is full; the newest message was dropped",
+                    input_text(*input)
+                )?;
+            }
+            Cause::NetworkFull => {
+                f.write_str("the network holds as many messages as it may; the newest was dropped")?;
+            }
+            Cause::OutOfBudget => {
+                f.write_str(
+                    "the network did not come to rest; it goes on at the next tick (a loop without end?)",
+                )?;
+            }
+            Cause::Unknown { name } => write!(f, "there is no {name:?}")?,
+            Cause::AlreadyConnected { to } => write!(f, "already connected to {to}; nothing changed")?,
+            Cause::Unlisted => {}
+        }
+        if self.count > 1 {
+            write!(f, " ({} times)", self.count)?;
+        }
+        Ok(())
+    }
+}
+
+/// As many different reports as are kept between two drains.
+const DIFFERENT_MAX: usize = 256;
+
+/// The reports since the last drain, in the order in which each first occurred.
+#[derive(Default)]
+pub(crate) struct Reports {
+    listed: Vec<Report>,
+    unlisted: u32,
+}
+
+impl Reports {
+    pub(crate) fn note(&mut self, name: &Name, what: impl fmt::Display, cause: Cause) {
+        self.note_times(name, what, cause, 1);
+    }
+
+    fn note_times(&mut self, name: &Name, what: impl fmt::Display, cause: Cause, count: u32) {
+        let same = |report: &&mut Report| report.cause == cause && report.name == *name;
+        if let Some(report) = self.listed.iter_mut().rev().find(same) {
+            report.count = report.count.saturating_add(count);
+        } else if self.listed.len() < DIFFERENT_MAX {
+            self.listed.push(Report {
+                name: name.clone(),
+                what: what.to_string(),
+                cause,
+                count,
+            });
+        } else {
+            self.unlisted = self.unlisted.saturating_add(count);
+        }
+    }
+
+    pub(crate) fn drain(&mut self) -> Vec<Report> {
+        let mut reports = std::mem::take(&mut self.listed);
+        if self.unlisted > 0 {
+            reports.push(Report {
+                name: Name::new("network"),
+                what: "network".to_owned(),
+                cause: Cause::Unlisted,
+                count: std::mem::take(&mut self.unlisted),
+            });
+        }
+        reports
+    }
+}

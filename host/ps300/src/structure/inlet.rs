@@ -1,0 +1,78 @@
+//! Messages to display nodes: which inputs a node has, and what a message does.
+//!
+//! The named inputs of vector lists and characters make rubber bands and ink ordinary data.
+//! Source: `docs/protocols/ps300.md`, "Display-tree nodes as sinks and sources". That `<position>` of a
+//! vector list adds a move is this project's rule, as is replacing by number.
+
+use glam::DVec3;
+
+use super::line::{edit_characters, edit_vectors};
+use super::{Body, NodeId, Structure, effect};
+use crate::language::Input;
+use crate::network::Refusal;
+use crate::value::{Kind, Kinds, Value};
+
+const POINT: Kinds = Kinds::of(&[Kind::Vector2, Kind::Vector3]);
+
+impl Structure {
+    /// What an input takes; nothing if the node has no such input.
+    pub(crate) fn accepts(&self, id: NodeId, input: Input) -> Option<Kinds> {
+        match (&self.slot(id)?.body, input) {
+            (Body::Operation { change, .. }, Input::Number(number)) => {
+                let inputs = effect::accepts(&change.operation);
+                inputs.get(usize::from(number).checked_sub(1)?).copied()
+            }
+            (Body::Vectors(_), Input::Append | Input::Last | Input::Position) => Some(POINT),
+            (Body::Vectors(_), Input::Number(1..)) => Some(POINT),
+            (Body::Vectors(_) | Body::Characters(_), Input::Delete) => Some(Kinds::INTEGER),
+            (Body::Vectors(_) | Body::Characters(_), Input::Clear) => Some(Kinds::ANY),
+            (Body::Characters(_), Input::Append | Input::Last) => Some(Kinds::STRING),
+            (Body::Characters(_), Input::Position) => Some(POINT),
+            (Body::Characters(_), Input::Step) => Some(Kind::Vector2.into()),
+            (Body::Characters(_), Input::Number(1..)) => Some(Kinds::STRING),
+            _ => None,
+        }
+    }
+
+    /// The inputs a node has, in words.
+    pub(crate) fn inputs_text(&self, id: NodeId) -> String {
+        match self.slot(id).map(|slot| &slot.body) {
+            Some(Body::Operation { change, .. }) => match effect::accepts(&change.operation).len() {
+                0 => "none".to_owned(),
+                1 => "<1>".to_owned(),
+                count => format!("<1> to <{count}>"),
+            },
+            Some(Body::Vectors(_)) => "<append>, <clear>, <delete>, <last>, <position>, <n>".to_owned(),
+            Some(Body::Characters(_)) => {
+                "<append>, <clear>, <delete>, <last>, <position>, <step>, <n>".to_owned()
+            }
+            _ => "none".to_owned(),
+        }
+    }
+
+    /// Takes a message.
+    pub(crate) fn feed(&mut self, id: NodeId, input: Input, value: &Value) -> Result<(), Refusal> {
+        let accepted = self.accepts(id, input).unwrap_or(Kinds::NONE);
+        if !accepted.has(value.kind()) {
+            return Err(Refusal::Kind(accepted));
+        }
+        let Some(slot) = self.slot_mut(id) else {
+            return Ok(());
+        };
+        match &mut slot.body {
+            Body::Operation { change, .. } => change.effect.feed(&change.operation, input, value),
+            Body::Vectors(list) => edit_vectors(list.now_mut(), input, value),
+            Body::Characters(characters) => edit_characters(characters.now_mut(), input, value),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A point in a node's own space; z is 0 where it is not said.
+pub(super) fn point(value: &Value) -> Result<DVec3, Refusal> {
+    match value {
+        Value::Vector2(v) => Ok(v.extend(0.0)),
+        Value::Vector3(v) => Ok(*v),
+        _ => Err(Refusal::Kind(POINT)),
+    }
+}

@@ -1,0 +1,168 @@
+//! The display tree: operations, instances, structures and data, each also a place messages go to.
+//!
+//! Apart from `network`, which knows a node only by its number. Nodes refer to each other by name, so
+//! that a name can be used before it is defined and redefined after.
+//! Source: `docs/protocols/ps300.md`, "Two graphs sharing one name space" and "Display-tree nodes as
+//! sinks and sources".
+
+mod build;
+mod cycle;
+mod effect;
+mod inlet;
+mod line;
+pub(crate) mod projection;
+mod walk;
+
+pub(crate) use build::BuildError;
+pub(crate) use cycle::reaches;
+pub(crate) use projection::NoView;
+pub(crate) use walk::Walk;
+
+use effect::Effect;
+
+use crate::language::{Characters, Name, Operation, VectorList};
+use crate::names::NameId;
+
+/// A node of the display tree. Not reused while anything refers to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct NodeId(pub(crate) u32);
+
+/// One node.
+pub(crate) struct Slot {
+    /// As commands reach it; that of the structure around it where it has no label.
+    pub(crate) name: Name,
+    pub(crate) body: Body,
+    /// Put above it by PREFIX, outermost first.
+    pub(crate) above: Vec<Change>,
+    /// Put below it by FOLLOW, outermost first.
+    pub(crate) below: Vec<Change>,
+}
+
+/// An operation as written and what it now does.
+pub(crate) struct Change {
+    pub(crate) operation: Operation,
+    effect: Effect,
+}
+
+/// What a node is.
+pub(crate) enum Body {
+    Nil,
+    Instance(Vec<NameId>),
+    /// Labels without the structure's own name.
+    Structure(Vec<(Option<Name>, NodeId)>),
+    Operation {
+        change: Change,
+        applied_to: Option<NameId>,
+    },
+    Vectors(Drawn<VectorList>),
+    Characters(Drawn<Characters>),
+}
+
+/// Data as written, and as messages have left it.
+pub(crate) struct Drawn<T> {
+    pub(crate) written: T,
+    changed: Option<T>,
+}
+
+impl<T: Clone> Drawn<T> {
+    fn new(written: T) -> Self {
+        Self {
+            written,
+            changed: None,
+        }
+    }
+
+    fn now(&self) -> &T {
+        self.changed.as_ref().unwrap_or(&self.written)
+    }
+
+    fn now_mut(&mut self) -> &mut T {
+        self.changed.get_or_insert_with(|| self.written.clone())
+    }
+}
+
+/// All nodes.
+#[derive(Default)]
+pub(crate) struct Structure {
+    slots: Vec<Option<Slot>>,
+    vacant: Vec<u32>,
+    /// Counts changes that can be seen.
+    pub(crate) revision: u64,
+}
+
+impl Structure {
+    pub(crate) fn slot(&self, id: NodeId) -> Option<&Slot> {
+        self.slots.get(id.0 as usize).and_then(Option::as_ref)
+    }
+
+    pub(crate) fn slot_mut(&mut self, id: NodeId) -> Option<&mut Slot> {
+        self.revision += 1;
+        self.slots.get_mut(id.0 as usize).and_then(Option::as_mut)
+    }
+
+    fn add(&mut self, name: Name, body: Body) -> NodeId {
+        self.revision += 1;
+        let slot = Some(Slot {
+            name,
+            body,
+            above: Vec::new(),
+            below: Vec::new(),
+        });
+        match self.vacant.pop() {
+            Some(index) => {
+                self.slots[index as usize] = slot;
+                NodeId(index)
+            }
+            None => {
+                self.slots.push(slot);
+                NodeId(self.slots.len() as u32 - 1)
+            }
+        }
+    }
+
+    /// Takes a node and, if it is a structure, its members; returns all that went.
+    pub(crate) fn remove(&mut self, id: NodeId) -> Vec<NodeId> {
+        self.revision += 1;
+        let mut gone = vec![id];
+        let mut next = 0;
+        while let Some(&id) = gone.get(next) {
+            next += 1;
+            if let Some(slot) = self.slots.get_mut(id.0 as usize).and_then(Option::take) {
+                self.vacant.push(id.0);
+                if let Body::Structure(members) = slot.body {
+                    gone.extend(members.into_iter().map(|(_, member)| member));
+                }
+            }
+        }
+        gone
+    }
+
+    /// The names directly below a node or its members.
+    pub(crate) fn below(&self, id: NodeId) -> Vec<NameId> {
+        match self.slot(id).map(|slot| &slot.body) {
+            Some(Body::Instance(of)) => of.clone(),
+            Some(Body::Operation {
+                applied_to: Some(name),
+                ..
+            }) => vec![*name],
+            Some(Body::Structure(members)) => members
+                .iter()
+                .flat_map(|(_, member)| self.below(*member))
+                .collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// As reports and drawings name a node's kind.
+    pub(crate) fn what(&self, id: NodeId) -> &'static str {
+        match self.slot(id).map(|slot| &slot.body) {
+            Some(Body::Operation { change, .. }) => effect::what(&change.operation),
+            Some(Body::Nil) => "NIL",
+            Some(Body::Instance(_)) => "INSTANCE",
+            Some(Body::Structure(_)) => "STRUCTURE",
+            Some(Body::Vectors(_)) => "VECTOR_LIST",
+            Some(Body::Characters(_)) => "CHARACTERS",
+            None => "removed",
+        }
+    }
+}
