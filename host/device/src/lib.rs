@@ -9,11 +9,11 @@
 
 pub mod clock;
 pub mod codec;
-pub mod device;
+mod device;
 pub mod servo;
 pub mod transport;
 
 pub use clock::{Clock, Instant, MonotonicClock, VirtualClock};
 pub use codec::{Codec, Feedback, InputEvent, PenSample, Stamped, Tool};
-pub use device::{Device, Health};
+pub use device::{Device, Health, UnknownFormat};
 pub use transport::{Boundary, Transport, TransportError};
