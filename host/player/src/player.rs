@@ -1,0 +1,491 @@
+//! The state machine: orders in, goals out, once a period.
+//!
+//! Everything moves through `device::servo`'s limiter; what is decided here is what is wished for. Faults are
+//! latched. Torque comes on only by arming, which pins every goal to the measured position first.
+
+use crate::config::{Ending, PlayerConfig};
+use crate::fault::{Fault, Place};
+use crate::joints::Lines;
+use crate::order::{Order, Rejection};
+use crate::playback::Playback;
+use crate::puppet::{Puppet, PuppetError};
+use crate::report::{JointReport, Report};
+use device::servo::{Armed, Bus, BusEvent, Commanded, Refusal};
+use device::{Instant, Transport};
+use std::time::Duration;
+
+/// Events of one poll that are kept; more can only repeat themselves.
+const EVENTS_MAX: usize = 256;
+
+/// What the player is doing.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum State {
+    /// Torque is off, or was never switched on.
+    #[default]
+    Released,
+    /// Servos are measured, configured and pinned.
+    Arming,
+    /// Torque is on and the joints stand, or are coming to a stand.
+    Holding,
+    /// A clip or live pose is approached or followed.
+    Playing,
+    /// Stopped, and left only by [`Order::Reset`].
+    Faulted(Fault),
+}
+
+impl State {
+    /// A short name for scenarios and logs.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Released => "released",
+            Self::Arming => "arming",
+            Self::Holding => "holding",
+            Self::Playing => "playing",
+            Self::Faulted(_) => "faulted",
+        }
+    }
+}
+
+/// A stop under way.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stopping {
+    pub(crate) since: Instant,
+    pub(crate) ending: Ending,
+}
+
+/// What is wished for when nothing is being played.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stance {
+    /// To stand as soon as possible.
+    Stand,
+    /// The pose in `wanted`.
+    Pose,
+}
+
+/// Plays a puppet. See the crate's opening.
+#[derive(Debug)]
+pub struct Player {
+    pub(crate) config: PlayerConfig,
+    puppet: Puppet,
+    pub(crate) lines: Lines,
+    pub(crate) state: State,
+    pub(crate) playback: Option<Playback>,
+    pub(crate) stance: Stance,
+    pub(crate) stopping: Option<Stopping>,
+    reset_pending: bool,
+    pub(crate) wanted: Vec<f64>,
+    events: Vec<(usize, BusEvent)>,
+    pub(crate) ticked: Option<Instant>,
+    pub(crate) late_run: u32,
+    pub(crate) heard_operator: Instant,
+    pub(crate) strained_since: Vec<Option<Instant>>,
+    pub(crate) report: Report,
+}
+
+impl Player {
+    /// Takes over the puppet's buses, in the puppet's order. Nothing is sent before the first tick.
+    pub fn new(puppet: Puppet, buses: Vec<Bus>, config: PlayerConfig) -> Result<Self, PuppetError> {
+        puppet.check(&buses)?;
+        let lines = Lines::new(buses, &puppet);
+        let count = lines.count();
+        Ok(Self {
+            config,
+            puppet,
+            lines,
+            state: State::Released,
+            playback: None,
+            stance: Stance::Stand,
+            stopping: None,
+            reset_pending: false,
+            wanted: vec![0.0; count],
+            events: Vec::with_capacity(EVENTS_MAX),
+            ticked: None,
+            late_run: 0,
+            heard_operator: Instant::ZERO,
+            strained_since: vec![None; count],
+            report: Report {
+                joints: vec![JointReport::default(); count],
+                ..Report::default()
+            },
+        })
+    }
+
+    /// The puppet it plays.
+    pub fn puppet(&self) -> &Puppet {
+        &self.puppet
+    }
+
+    /// How it behaves.
+    pub fn config(&self) -> &PlayerConfig {
+        &self.config
+    }
+
+    /// What it is doing.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What the last tick did.
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    /// Its buses, in the puppet's order.
+    pub fn buses(&self) -> impl Iterator<Item = &Bus> {
+        self.lines.lines.iter().map(|line| &line.bus)
+    }
+
+    /// Why arming was refused last, or which servos kept their torque: servo by servo, with the remedy.
+    pub fn refusals(&self) -> impl Iterator<Item = &Refusal> {
+        self.lines.lines.iter().flat_map(|line| line.bus.refusals())
+    }
+
+    /// Puts one bus on a new line, as after a cable was plugged in again. Only while faulted or released;
+    /// the servos must be armed anew and start from where they are measured.
+    pub fn reconnect(&mut self, bus: &str, transport: Box<dyn Transport>) -> Result<(), PuppetError> {
+        if let Some(line) = self.lines.lines.iter_mut().find(|line| line.bus.name() == bus) {
+            line.bus.reconnect(transport)?;
+            line.lost = false;
+            // A servo that kept its torque through the gap must not keep it unseen.
+            line.release_due = true;
+        }
+        Ok(())
+    }
+
+    /// Gives the buses back, for maintenance. Torque is as it is: release first.
+    pub fn into_buses(self) -> Vec<Bus> {
+        self.lines.lines.into_iter().map(|line| line.bus).collect()
+    }
+
+    /// One period: takes in answers, follows orders, judges, and sends goals. Does not wait, and does not
+    /// allocate unless an order brings something new to play or something goes wrong.
+    pub fn tick(&mut self, now: Instant, orders: &mut dyn Iterator<Item = Order>) -> &Report {
+        self.report.rejected = None;
+        self.report.arming_refused = false;
+        let dt = self.note_time(now);
+        self.poll(now);
+        for order in orders {
+            self.obey(order, now);
+        }
+        self.watch(now);
+        self.proceed(now, dt);
+        self.drive(now);
+        self.fill_report(now);
+        &self.report
+    }
+
+    /// Takes in answers between ticks, so that what is left of a period can be used. Never needed, never
+    /// waits.
+    pub fn poll(&mut self, now: Instant) {
+        let mut events = std::mem::take(&mut self.events);
+        for at in 0..self.lines.lines.len() {
+            let Some(line) = self.lines.lines.get_mut(at) else {
+                continue;
+            };
+            let failed = line.poll(now, &mut |event| {
+                if events.len() < EVENTS_MAX {
+                    events.push((at, event));
+                }
+            });
+            if let Some(why) = failed {
+                self.lose(at, why, now);
+            }
+        }
+        for (at, event) in events.drain(..) {
+            self.hear(at, event, now);
+        }
+        self.events = events;
+    }
+
+    /// Waits on all lines until `until`, or until bytes have come on one of them.
+    pub(crate) fn wait(&mut self, clock: &dyn device::Clock, until: Instant) {
+        // One transport can be waited for at a time: short turns bound what the others lose.
+        let turn = Duration::from_millis(1);
+        for line in &mut self.lines.lines {
+            if line.lost {
+                continue;
+            }
+            let end = until.min(clock.now().after(turn));
+            line.bus.wait(clock, end);
+            if clock.now() < end {
+                return;
+            }
+        }
+        if self.lines.lines.iter().all(|line| line.lost) {
+            clock.sleep_until(until.min(clock.now().after(turn)));
+        }
+    }
+
+    fn lose(&mut self, at: usize, why: String, now: Instant) {
+        if let Some(line) = self.lines.lines.get_mut(at) {
+            line.lost = true;
+            let bus = line.bus.name().to_owned();
+            self.fault(Fault::BusLost { bus, why }, now);
+        }
+    }
+
+    fn hear(&mut self, at: usize, event: BusEvent, now: Instant) {
+        match event {
+            BusEvent::ArmingRefused => self.arming_refused(at, now),
+            BusEvent::HardwareError { member, bits } => {
+                self.member_fault(at, member, now, |place| Fault::ServoError { place, bits });
+            }
+            BusEvent::Hot {
+                member,
+                temperature_c,
+            } => {
+                self.member_fault(at, member, now, |place| Fault::Hot { place, temperature_c });
+            }
+            BusEvent::Restarted { member } => self.member_fault(at, member, now, Fault::Restarted),
+            BusEvent::TorqueLost { member } => self.member_fault(at, member, now, Fault::TorqueLost),
+            // Silence is judged by the age of readings; the rest is counted by the bus.
+            _ => {}
+        }
+    }
+
+    fn arming_refused(&mut self, at: usize, now: Instant) {
+        self.report.arming_refused = true;
+        if self.state == State::Arming {
+            self.lines.release_all(now);
+            self.state = State::Released;
+            return;
+        }
+        let first = self
+            .lines
+            .lines
+            .get(at)
+            .and_then(|line| line.bus.refusals().first());
+        let why = first.map(ToString::to_string).unwrap_or_default();
+        self.fault(Fault::Refused(why), now);
+    }
+
+    fn member_fault(&mut self, at: usize, member: usize, now: Instant, fault: impl FnOnce(Place) -> Fault) {
+        let engaged = matches!(self.state, State::Holding | State::Playing);
+        if let Some(place) = self.place(at, member)
+            && engaged
+        {
+            self.fault(fault(place), now);
+        }
+    }
+
+    pub(crate) fn place(&self, at: usize, member: usize) -> Option<Place> {
+        let bus = &self.lines.lines.get(at)?.bus;
+        let seated = bus.member(member)?;
+        Some(Place {
+            bus: bus.name().to_owned(),
+            joint: seated.joint().to_owned(),
+            id: seated.id(),
+        })
+    }
+
+    /// Latches a fault and begins to stop. The first fault stays, but a pressed stop is always shown.
+    pub(crate) fn fault(&mut self, fault: Fault, now: Instant) {
+        let faulted = matches!(self.state, State::Faulted(_));
+        if faulted && fault != Fault::StopPressed {
+            return;
+        }
+        tracing::warn!(fault = fault.name(), "{fault}");
+        let was_released = self.state == State::Released;
+        if was_released {
+            self.lines.release_all(now);
+        }
+        self.state = State::Faulted(fault);
+        self.playback = None;
+        self.reset_pending = false;
+        if !faulted || self.stopping.is_none() {
+            let ending = if was_released {
+                Ending::Release
+            } else {
+                self.config.ending
+            };
+            self.stopping = Some(Stopping { since: now, ending });
+        }
+    }
+
+    fn obey(&mut self, order: Order, now: Instant) {
+        self.heard_operator = now;
+        let verb = order.verb();
+        let fits = match (&order, &self.state) {
+            (Order::Alive, _) => Ok(()),
+            (Order::Stop, _) => {
+                self.fault(Fault::StopPressed, now);
+                Ok(())
+            }
+            (Order::Reset, State::Faulted(_)) => {
+                self.reset_pending = true;
+                self.stopping
+                    .get_or_insert(Stopping {
+                        since: now,
+                        ending: Ending::Release,
+                    })
+                    .ending = Ending::Release;
+                Ok(())
+            }
+            (_, State::Faulted(_)) => Err("reset first"),
+            (Order::Reset, _) => Err("there is no fault to leave"),
+            (Order::Arm, State::Released) if self.lines.all_loose() => {
+                self.arm(now);
+                Ok(())
+            }
+            (Order::Arm, _) => Err("release first, and wait until that is done"),
+            (Order::Release, State::Released) => Ok(()),
+            (Order::Release, State::Arming) => {
+                self.lines.release_all(now);
+                self.state = State::Released;
+                Ok(())
+            }
+            (Order::Release, _) => {
+                self.begin_hold();
+                self.stopping = Some(Stopping {
+                    since: now,
+                    ending: Ending::Release,
+                });
+                Ok(())
+            }
+            (_, State::Released) => Err("arm first"),
+            (_, State::Arming) => Err("wait until arming is done"),
+            (Order::Hold, _) => {
+                self.begin_hold();
+                Ok(())
+            }
+            _ if self.stopping.is_some() => Err("torque is going off; arm again"),
+            _ => {
+                self.play(order);
+                Ok(())
+            }
+        };
+        if let Err(remedy) = fits {
+            self.reject(Rejection::State {
+                order: verb,
+                state: self.state.name(),
+                remedy,
+            });
+        }
+    }
+
+    pub(crate) fn reject(&mut self, rejection: Rejection) {
+        tracing::debug!("{rejection}");
+        self.report.rejected = Some(rejection);
+    }
+
+    fn arm(&mut self, now: Instant) {
+        self.state = State::Arming;
+        self.stopping = None;
+        self.strained_since.fill(None);
+        for at in 0..self.lines.lines.len() {
+            let Some(line) = self.lines.lines.get_mut(at) else {
+                continue;
+            };
+            line.lost = false;
+            if let Err(error) = line.bus.begin_arming(now) {
+                self.lose(at, error.to_string(), now);
+                return;
+            }
+        }
+    }
+
+    fn begin_hold(&mut self) {
+        self.playback = None;
+        self.stance = Stance::Stand;
+        if self.state == State::Playing {
+            self.state = State::Holding;
+        }
+    }
+
+    /// Sends goals where there is torque, looks where there is none.
+    fn drive(&mut self, now: Instant) {
+        let posed = self.stance == Stance::Pose
+            && self.stopping.is_none()
+            && matches!(self.state, State::Holding | State::Playing);
+        self.report.goals_sent = !self.lines.lines.is_empty();
+        for at in 0..self.lines.lines.len() {
+            let Some(line) = self.lines.lines.get_mut(at) else {
+                continue;
+            };
+            if line.release_due {
+                line.release(now);
+            }
+            let pose = posed.then_some(self.wanted.as_slice());
+            let result = match line.bus.armed() {
+                _ if line.lost => Ok(Commanded::Busy),
+                Armed::Yes => line.command(pose, now, &mut self.report.interventions),
+                Armed::No => line.bus.observe(now).map(|_| Commanded::Busy),
+                Armed::Arming | Armed::Releasing => Ok(Commanded::Busy),
+            };
+            match result {
+                Ok(commanded) => self.report.goals_sent &= commanded == Commanded::Sent,
+                Err(error) => {
+                    self.report.goals_sent = false;
+                    self.lose(at, error.to_string(), now);
+                }
+            }
+        }
+    }
+
+    fn fill_report(&mut self, now: Instant) {
+        let Self { report, lines, .. } = self;
+        report.at = now;
+        report.state.clone_from(&self.state);
+        report.phase = self
+            .playback
+            .as_ref()
+            .map(|playback| playback.phase)
+            .unwrap_or_default();
+        report.clip_secs = self.playback.as_ref().and_then(Playback::secs);
+        report.torque = !lines.all_loose();
+        report.stale_discarded = 0;
+        report.timeouts = 0;
+        for line in &lines.lines {
+            let counters = line.bus.counters();
+            report.stale_discarded = report.stale_discarded.saturating_add(counters.stale);
+            report.timeouts = report.timeouts.saturating_add(counters.timeouts);
+        }
+        for (at, joint) in report.joints.iter_mut().enumerate() {
+            *joint = lines.joint_report(at);
+        }
+    }
+
+    /// Goes from one state to the next where that needs no order.
+    fn proceed(&mut self, now: Instant, dt_secs: f64) {
+        if let Some(stopping) = self.stopping {
+            self.stop_further(stopping, now);
+        }
+        match self.state {
+            State::Arming if self.lines.all_armed() => {
+                self.state = State::Holding;
+                self.stance = Stance::Stand;
+            }
+            State::Playing => self.play_further(dt_secs),
+            State::Faulted(_) if self.reset_pending && self.stopping.is_none() && self.lines.all_loose() => {
+                self.reset_pending = false;
+                self.state = State::Released;
+            }
+            _ => {}
+        }
+    }
+
+    /// Waits until the joints stand, then ends as wished.
+    fn stop_further(&mut self, stopping: Stopping, now: Instant) {
+        for line in &mut self.lines.lines {
+            // What is not pinned yet does not move: it can be switched off at once.
+            if line.bus.armed() == Armed::Arming {
+                line.release(now);
+            }
+        }
+        let waited_enough = now.since(stopping.since) >= self.config.braking_max;
+        if stopping.ending == Ending::Hold || !(self.lines.all_still() || waited_enough) {
+            return;
+        }
+        for line in &mut self.lines.lines {
+            if matches!(line.bus.armed(), Armed::Yes | Armed::Arming) {
+                line.release(now);
+            }
+        }
+        if self.lines.all_loose() {
+            self.stopping = None;
+            if self.state == State::Holding {
+                self.state = State::Released;
+            }
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! What one tick did, for logs and windows. Owned by the player and overwritten each tick.
+
+use crate::order::Rejection;
+use crate::player::State;
+use device::Instant;
+use device::servo::{Change, Load, Presence};
+use std::time::Duration;
+
+/// Where playing stands.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Phase {
+    /// Not playing.
+    #[default]
+    Idle,
+    /// Coming to a stand before anything else.
+    Braking,
+    /// On the way to the first pose; the clip's time stands still.
+    Approaching,
+    /// The clip's time runs, or the live pose is followed.
+    Running,
+    /// Servos stopped during a pause of the host are being measured and pinned again.
+    Pinning,
+}
+
+/// What the limits changed, counted since the player was made.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Interventions {
+    /// Wishes that were no numbers.
+    pub not_finite: u64,
+    /// Wishes outside a range.
+    pub position: u64,
+    /// Wishes too fast.
+    pub velocity: u64,
+    /// Wishes too sudden.
+    pub acceleration: u64,
+    /// Pauses of the host after which goals braked.
+    pub stalled: u64,
+}
+
+impl Interventions {
+    pub(crate) fn add(&mut self, change: Change) {
+        let count = match change {
+            Change::NotFinite => &mut self.not_finite,
+            Change::Position { .. } => &mut self.position,
+            Change::Velocity => &mut self.velocity,
+            Change::Acceleration => &mut self.acceleration,
+            Change::Stalled => &mut self.stalled,
+        };
+        *count = count.saturating_add(1);
+    }
+
+    /// All together.
+    pub fn total(&self) -> u64 {
+        [
+            self.not_finite,
+            self.position,
+            self.velocity,
+            self.acceleration,
+            self.stalled,
+        ]
+        .iter()
+        .fold(0, |sum, count| sum.saturating_add(*count))
+    }
+}
+
+/// One joint after a tick.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct JointReport {
+    /// The limited goal before it is rounded to counts; none without torque.
+    pub goal_rad: Option<f64>,
+    /// The last fresh measurement; none before the first.
+    pub measured_rad: Option<f64>,
+    /// When that was measured.
+    pub measured_at: Option<Instant>,
+    /// Measured speed.
+    pub velocity_rad_per_s: f64,
+    /// Measured current or load.
+    pub load: Option<Load>,
+    /// Volts at the servo.
+    pub voltage_v: Option<f64>,
+    /// Degrees Celsius in the servo.
+    pub temperature_c: Option<f64>,
+    /// Hardware Error Status.
+    pub error_bits: u8,
+    /// Whether it answers.
+    pub presence: Option<Presence>,
+    /// Whether the limits changed this tick's goal.
+    pub limited: bool,
+}
+
+/// One tick.
+#[derive(Debug, Clone, Default)]
+pub struct Report {
+    /// When.
+    pub at: Instant,
+    /// The state after it.
+    pub state: State,
+    /// Where playing stands.
+    pub phase: Phase,
+    /// The clip's time, while one is loaded.
+    pub clip_secs: Option<f64>,
+    /// Whether goals went out on every bus in this tick. Rates of change are only meaningful between ticks
+    /// that did.
+    pub goals_sent: bool,
+    /// Whether any bus may have torque.
+    pub torque: bool,
+    /// Joints in the puppet's order.
+    pub joints: Vec<JointReport>,
+    /// How late this tick was.
+    pub lateness: Duration,
+    /// Late ticks since the player was made.
+    pub late_ticks: u64,
+    /// What the limits changed since the player was made.
+    pub interventions: Interventions,
+    /// Late answers thrown away since the player was made.
+    pub stale_discarded: u64,
+    /// Answers that did not come in time since the player was made.
+    pub timeouts: u64,
+    /// The last order of this tick that was not followed.
+    pub rejected: Option<Rejection>,
+    /// Arming was refused in this tick; [`crate::Player::refusals`] says why.
+    pub arming_refused: bool,
+}

@@ -1,0 +1,59 @@
+//! The only loop with a deadline: ticks a player at a fixed period, on a thread of its own.
+
+use crate::order::Order;
+use crate::player::Player;
+use crate::report::Report;
+use device::{Clock, Instant};
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+/// How long the loop goes on after it was told to end, for joints to come to a stand and torque to go off.
+const END_MAX: Duration = Duration::from_secs(5);
+
+/// Ticks until `seen` breaks. `next` gives the orders that have come since the last tick; it must not block.
+/// Between ticks the lines are listened to, so that the rest of a period can be used.
+///
+/// However the loop ends, the player is stopped first if it may have torque: it decelerates, releases, and
+/// only then the function returns.
+pub fn run(
+    player: &mut Player,
+    clock: &dyn Clock,
+    period: Duration,
+    next: &mut dyn FnMut() -> Option<Order>,
+    seen: &mut dyn FnMut(&Report) -> ControlFlow<()>,
+) {
+    // A period of nothing would never wait.
+    let period = period.max(Duration::from_micros(500));
+    let mut due = clock.now();
+    let mut ending: Option<Instant> = None;
+    let mut last_orders = [Order::Stop, Order::Reset].into_iter();
+    loop {
+        let now = clock.now();
+        let report = if ending.is_none() {
+            player.tick(now, &mut std::iter::from_fn(&mut *next))
+        } else {
+            player.tick(now, &mut last_orders)
+        };
+        let torque = report.torque;
+        if seen(report).is_break() && ending.is_none() {
+            ending = Some(now.after(END_MAX));
+        }
+        if ending.is_some_and(|ending| !torque || now >= ending) {
+            return;
+        }
+        due = due.after(period);
+        let now = clock.now();
+        if now > due.after(period) {
+            // So far behind that catching up would be a burst: go on from here.
+            due = now;
+        }
+        listen(player, clock, due);
+    }
+}
+
+fn listen(player: &mut Player, clock: &dyn Clock, until: Instant) {
+    while clock.now() < until {
+        player.wait(clock, until);
+        player.poll(clock.now());
+    }
+}

@@ -1,0 +1,107 @@
+//! The watchdogs: what stops a player without anybody asking.
+
+use crate::fault::Fault;
+use crate::player::{Player, State};
+use device::Instant;
+use device::servo::{Armed, Presence};
+
+/// The clip's time runs on by no more than this in one tick: after a longer pause of the host the motion goes
+/// on where it was, not where it would have been. As `device::servo::limit::STEP_MAX_SECS`.
+const STEP_MAX_SECS: f64 = device::servo::limit::STEP_MAX_SECS;
+
+impl Player {
+    /// Time since the last tick as playing sees it, and how late this one is.
+    pub(crate) fn note_time(&mut self, now: Instant) -> f64 {
+        let period = self.config.period;
+        let since = self.ticked.map_or(period, |ticked| now.since(ticked));
+        self.ticked = Some(now);
+        let lateness = since.saturating_sub(period);
+        self.report.lateness = lateness;
+        if lateness > self.config.late_after {
+            self.late_run = self.late_run.saturating_add(1);
+            self.report.late_ticks = self.report.late_ticks.saturating_add(1);
+        } else {
+            self.late_run = 0;
+        }
+        since.as_secs_f64().min(STEP_MAX_SECS)
+    }
+
+    /// Judges what is known by now. Only a player with torque has anything to fear.
+    pub(crate) fn watch(&mut self, now: Instant) {
+        if !matches!(self.state, State::Holding | State::Playing) {
+            self.late_run = 0;
+            return;
+        }
+        if let Some(fault) = self.find_fault(now) {
+            self.fault(fault, now);
+        }
+    }
+
+    fn find_fault(&mut self, now: Instant) -> Option<Fault> {
+        if self.late_run >= self.config.late_ticks_max {
+            return Some(Fault::LateTicks { count: self.late_run });
+        }
+        let gone = self
+            .config
+            .operator_max
+            .is_some_and(|max| now.since(self.heard_operator) > max);
+        if gone {
+            return Some(Fault::OperatorGone);
+        }
+        self.find_silence(now).or_else(|| self.find_strain(now))
+    }
+
+    /// Blames the member that is certainly absent; else the one not heard for the longest time.
+    fn find_silence(&self, now: Instant) -> Option<Fault> {
+        for (at, line) in self.lines.lines.iter().enumerate() {
+            if line.bus.armed() != Armed::Yes {
+                continue;
+            }
+            let age = |member: usize| line.bus.reading(member).map(|reading| reading.age(now));
+            let silent = (0..line.joints.len())
+                .filter(|member| age(*member).is_none_or(|age| age > self.config.silence_max));
+            let absent = |member: &usize| line.bus.presence(*member) == Some(Presence::Absent);
+            let mut blamed = None;
+            for member in silent {
+                if absent(&member) {
+                    blamed = Some(member);
+                    break;
+                }
+                if blamed.is_none_or(|blamed| age(member) > age(blamed)) {
+                    blamed = Some(member);
+                }
+            }
+            if let Some(place) = blamed.and_then(|member| self.place(at, member)) {
+                return Some(Fault::BusSilent(place));
+            }
+        }
+        None
+    }
+
+    fn find_strain(&mut self, now: Instant) -> Option<Fault> {
+        for joint in 0..self.lines.count() {
+            let by_rad = match (self.lines.goal_rad(joint), self.lines.reading(joint)) {
+                (Some(goal), Some(reading)) => (goal - reading.position_rad).abs(),
+                _ => 0.0,
+            };
+            let Some(since) = self.strained_since.get_mut(joint) else {
+                continue;
+            };
+            if by_rad <= self.config.strain_rad {
+                *since = None;
+            } else if now.since(*since.get_or_insert(now)) > self.config.strain_max {
+                let (bus, member) = self.lines.seat(joint)?;
+                let at = self
+                    .lines
+                    .lines
+                    .iter()
+                    .position(|line| line.bus.name() == bus.name())?;
+                return Some(Fault::Strained {
+                    place: self.place(at, member)?,
+                    by_rad,
+                });
+            }
+        }
+        None
+    }
+}
