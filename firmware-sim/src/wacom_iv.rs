@@ -43,21 +43,24 @@ pub struct Model {
     pub eraser_bit: u8,
     /// Takes `FM1` and then reports tilt.
     pub tilt: bool,
+    /// Answers `~C`; a Graphire does not.
+    pub answers_size: bool,
+    /// Its puck has a wheel.
+    pub wheel: bool,
 }
 
 impl From<&TabletProfile> for Model {
     fn from(profile: &TabletProfile) -> Self {
-        let family = profile.identify.prefix.as_str();
         Self {
             text: profile.identify.model.clone(),
             version: profile.identify.version.clone(),
             resolution: profile.surface.counts_per_inch,
             max: profile.surface.counts,
             pressure_max: profile.surface.pressure,
-            // The eraser is button bit 2, bit 3 on a Graphire (wcmSerial.c).
-            eraser_bit: if family == "ET" { 3 } else { 2 },
-            // Tilt came with the Digitizer II; Graphire and PenPartner have none.
-            tilt: family == "UD",
+            eraser_bit: profile.surface.eraser_bit.min(3),
+            tilt: profile.surface.tilt,
+            answers_size: profile.identify.answers_size,
+            wheel: profile.tools.iter().any(|tool| tool.wheel == Some(true)),
         }
     }
 }
@@ -196,6 +199,7 @@ impl WacomIv {
                 let [x, y] = self.model.resolution;
                 self.answer(at_ns, &format!("~RE202C900,002,02,{x},{y}\r"));
             }
+            Command::Size if !self.model.answers_size => self.unknown += 1,
             Command::Size => {
                 let [x, y] = self.model.max;
                 self.answer(at_ns, &format!("~C{x},{y}\r"));
@@ -245,7 +249,7 @@ impl WacomIv {
     fn touch_now(&mut self, touch: &Touch) -> bool {
         let next = match touch {
             Touch::Pen(pen) => Some(Pointer::pen(pen, self.model.eraser_bit)),
-            Touch::Puck(puck) => Some(Pointer::puck(puck)),
+            Touch::Puck(puck) => Some(Pointer::puck(puck, self.model.wheel)),
             Touch::Away => None,
             Touch::PowerCycle => {
                 self.line.device_stops(self.reached_ns);

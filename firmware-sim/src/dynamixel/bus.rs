@@ -236,7 +236,7 @@ impl ServoBus {
                 } else {
                     0
                 };
-                let arrived = self.through_noise(byte.byte);
+                let arrived = self.through_noise(byte.value);
                 if let Some(heard) = self.receiver.push(start_ns, byte.end_ns, arrived) {
                     self.dispatch(byte.end_ns, heard);
                     self.receiver.clear();

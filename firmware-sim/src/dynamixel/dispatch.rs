@@ -20,7 +20,7 @@ impl ServoBus {
             Heard::Instruction {
                 id: BROADCAST,
                 instruction,
-            } => self.to_all(at_ns, instruction),
+            } => self.for_all(at_ns, instruction),
             Heard::Instruction { id, instruction } => self.alone(at_ns, id, Some(instruction)),
         }
     }
@@ -76,7 +76,7 @@ impl ServoBus {
         }
     }
 
-    fn to_all(&mut self, at_ns: u64, code: u8) {
+    fn for_all(&mut self, at_ns: u64, code: u8) {
         let baud = self.options.baud;
         for servo in self.servos.iter_mut().filter(|servo| servo.hears(at_ns, baud)) {
             servo.advance(at_ns);
@@ -97,12 +97,12 @@ impl ServoBus {
             instruction::BULK_WRITE => self.bulk_write(at_ns),
             // "Broadcast ID is not applied to Read" (protocol page).
             instruction::READ => {}
-            _ => self.to_each(at_ns, code),
+            _ => self.for_each(at_ns, code),
         }
     }
 
     /// Any other instruction to all: obeyed, never answered.
-    fn to_each(&mut self, at_ns: u64, code: u8) {
+    fn for_each(&mut self, at_ns: u64, code: u8) {
         for servo in &mut self.servos {
             if !servo.hears(at_ns, self.options.baud) {
                 continue;

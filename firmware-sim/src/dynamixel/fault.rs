@@ -98,7 +98,7 @@ impl Fault {
 /// The words of a fault, with the column of the one last taken.
 struct Words<'a> {
     text: &'a str,
-    words: std::iter::Peekable<std::str::SplitWhitespace<'a>>,
+    rest: std::iter::Peekable<std::str::SplitWhitespace<'a>>,
     last: Option<&'a str>,
 }
 
@@ -106,13 +106,13 @@ impl<'a> Words<'a> {
     fn new(text: &'a str) -> Self {
         Self {
             text,
-            words: text.split_whitespace().peekable(),
+            rest: text.split_whitespace().peekable(),
             last: None,
         }
     }
 
     fn next(&mut self) -> Option<&'a str> {
-        self.last = self.words.next();
+        self.last = self.rest.next();
         self.last
     }
 
@@ -125,7 +125,7 @@ impl<'a> Words<'a> {
                 if self.next() != Some("cut") {
                     return Err(self.wrong("`cut`"));
                 }
-                let after = self.words.next_if_eq(&"after").is_some();
+                let after = self.rest.next_if_eq(&"after").is_some();
                 FaultKind::CableCut(if after { usize::from(self.id()?) } else { 0 })
             }
             Some("drop") => FaultKind::Drop(self.share()?),
@@ -172,7 +172,7 @@ impl<'a> Words<'a> {
     }
 
     fn a_number_follows(&mut self) -> bool {
-        self.words
+        self.rest
             .peek()
             .is_some_and(|word| word.starts_with(|first: char| first.is_ascii_digit() || first == '-'))
     }

@@ -2,6 +2,7 @@
 
 use super::bus::ServoBus;
 use super::fault::{Fault, FaultKind};
+use super::servo::Supply;
 
 /// Parts in a whole for the shares of faults.
 const MILLION: u32 = 1_000_000;
@@ -94,7 +95,13 @@ impl ServoBus {
             FaultKind::CableCut(after) => self.cut_after(at_ns, after),
             FaultKind::Supply(volts) => {
                 for servo in &mut self.servos {
-                    servo.set_supply(at_ns, volts);
+                    servo.set_supply(
+                        at_ns,
+                        Supply {
+                            volts,
+                            ..servo.supply
+                        },
+                    );
                 }
             }
             FaultKind::Echo
@@ -120,8 +127,14 @@ impl ServoBus {
             FaultKind::CableCut(_) => self.cut_after(at_ns, usize::MAX),
             FaultKind::Supply(_) => {
                 for servo in &mut self.servos {
-                    let nominal = servo.nominal_volts();
-                    servo.set_supply(at_ns, nominal);
+                    let volts = servo.nominal_volts();
+                    servo.set_supply(
+                        at_ns,
+                        Supply {
+                            volts,
+                            ..servo.supply
+                        },
+                    );
                 }
             }
             _ => {}
@@ -130,9 +143,13 @@ impl ServoBus {
 
     fn cut_after(&mut self, at_ns: u64, after: usize) {
         for (place, servo) in self.servos.iter_mut().enumerate() {
-            servo.disconnected = place >= after;
-            let volts = servo.supply_volts;
-            servo.set_supply(at_ns, volts);
+            servo.set_supply(
+                at_ns,
+                Supply {
+                    cable: place < after,
+                    ..servo.supply
+                },
+            );
         }
     }
 

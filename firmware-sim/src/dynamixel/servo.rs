@@ -131,6 +131,20 @@ pub struct Counters {
     pub acceleration_max_rad_per_s2: f64,
 }
 
+/// Where a servo's power comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Supply {
+    pub(super) volts: f64,
+    /// The cable carries power and data.
+    pub(super) cable: bool,
+}
+
+impl Supply {
+    pub(super) fn is_on(self) -> bool {
+        self.cable && self.volts >= BROWN_OUT_VOLTS
+    }
+}
+
 /// Constant facts taken from the profile once.
 #[derive(Clone, Debug)]
 pub(super) struct Facts {
@@ -161,10 +175,8 @@ pub struct Servo {
     pub(super) stepped_ns: u64,
     pub(super) last_heard_ns: u64,
     pub(super) sag: Option<Sag>,
-    pub(super) supply_volts: f64,
+    pub(super) supply: Supply,
     pub(super) silent: bool,
-    pub(super) powered: bool,
-    pub(super) disconnected: bool,
     pub(super) booting_until_ns: u64,
     booted_ns: u64,
     /// Latched until reboot: Shutdown took the torque away.
@@ -181,7 +193,10 @@ impl Servo {
         let speed_max = table.get(Reg::VelocityLimit).max(1) as f64 * facts.speed_unit;
         let position = facts.centre + unit.start_rad / facts.rad_per_count;
         let mut servo = Self {
-            supply_volts: 0.0,
+            supply: Supply {
+                volts: 0.0,
+                cable: true,
+            },
             facts,
             table,
             plant: Plant::new(position, speed_max),
@@ -194,8 +209,6 @@ impl Servo {
             last_heard_ns: 0,
             sag: None,
             silent: false,
-            powered: true,
-            disconnected: false,
             booting_until_ns: 0,
             booted_ns: 0,
             shut_down: false,
@@ -203,7 +216,7 @@ impl Servo {
             strained_steps: 0,
             unit,
         };
-        servo.supply_volts = servo.nominal_volts();
+        servo.supply.volts = servo.nominal_volts();
         servo.table.set(Reg::ModelNumber, i64::from(profile.model_number));
         servo.table.set(
             Reg::FirmwareVersion,
@@ -262,22 +275,16 @@ impl Servo {
         self.start_ram(at_ns);
     }
 
-    /// The supply is there or gone.
-    pub(super) fn set_power(&mut self, at_ns: u64, powered: bool) {
+    /// The supply changes; below what the controller needs, the servo is off, and comes back by a reboot.
+    pub(super) fn set_supply(&mut self, at_ns: u64, supply: Supply) {
         self.advance(at_ns);
-        let had_power = std::mem::replace(&mut self.powered, powered);
-        if had_power && !powered {
-            self.table.set(Reg::TorqueEnable, 0);
-            self.rest();
-        } else if !had_power && powered {
-            self.reboot(at_ns);
+        let was_on = self.supply.is_on();
+        self.supply = supply;
+        match (was_on, supply.is_on()) {
+            (true, false) => self.torque_off(),
+            (false, true) => self.reboot(at_ns),
+            _ => {}
         }
-    }
-
-    pub(super) fn set_supply(&mut self, at_ns: u64, volts: f64) {
-        self.advance(at_ns);
-        self.supply_volts = volts;
-        self.set_power(at_ns, volts >= BROWN_OUT_VOLTS && !self.disconnected);
     }
 
     /// What the supply has when nothing is wrong with it.
@@ -321,7 +328,7 @@ impl Servo {
         if let Some(celsius) = self.forced_temperature_c {
             self.plant.temperature_c = celsius;
         }
-        if self.powered {
+        if self.supply.is_on() {
             self.watch_the_hardware();
         }
     }
@@ -354,9 +361,10 @@ impl Servo {
         let bad_voltage =
             tenths < self.table.get(Reg::MinVoltageLimit) || tenths > self.table.get(Reg::MaxVoltageLimit);
         let hot = self.plant.temperature_c > self.table.get(Reg::TemperatureLimit) as f64;
-        let now = u8::from(bad_voltage) * hardware::VOLTAGE
-            | u8::from(hot) * hardware::OVERHEATING
-            | u8::from(self.strained_steps >= OVERLOAD_STEPS) * hardware::OVERLOAD;
+        let bit = |holds: bool, bit: u8| if holds { bit } else { 0 };
+        let now = bit(bad_voltage, hardware::VOLTAGE)
+            | bit(hot, hardware::OVERHEATING)
+            | bit(self.strained_steps >= OVERLOAD_STEPS, hardware::OVERLOAD);
         let shutdown = self.table.get(Reg::Shutdown) as u8;
         let old = self.table.get(Reg::HardwareErrorStatus) as u8;
         // What Shutdown names is latched until a reboot; the rest passes with its cause.
@@ -374,7 +382,7 @@ impl Servo {
 
     /// Volts at the servo in tenths, as Present Input Voltage has them.
     pub(super) fn voltage_tenths(&self) -> i64 {
-        ((self.supply_volts - CABLE_DROP_VOLTS * self.plant.effort.abs()) * 10.0).round() as i64
+        ((self.supply.volts - CABLE_DROP_VOLTS * self.plant.effort.abs()) * 10.0).round() as i64
     }
 
     /// The error bits set by a test rather than by the plant.
@@ -539,8 +547,7 @@ impl Servo {
 
     /// Whether it hears a bus at `baud` at `at_ns`: connected, awake, and within three per cent of its speed.
     pub(super) fn hears(&self, at_ns: u64, baud: u32) -> bool {
-        self.powered
-            && !self.disconnected
+        self.supply.is_on()
             && at_ns >= self.booting_until_ns
             && self.baud().is_some_and(|own| own.abs_diff(baud) <= own / 33)
     }
@@ -603,7 +610,7 @@ impl Servo {
 
     /// Whether it has power and a cable to the host.
     pub fn is_connected(&self) -> bool {
-        self.powered && !self.disconnected
+        self.supply.is_on()
     }
 
     /// Motor temperature in degrees Celsius.

@@ -39,7 +39,7 @@ impl Default for Adapter {
 pub(super) struct Byte {
     pub(super) start_ns: u64,
     pub(super) end_ns: u64,
-    pub(super) byte: u8,
+    pub(super) value: u8,
 }
 
 impl Byte {
@@ -81,7 +81,7 @@ impl Wire {
         let mut sent = Byte {
             start_ns,
             end_ns: self.host_free_ns,
-            byte,
+            value: byte,
         };
         if start_ns < self.servos_free_ns {
             self.collisions += collide(&mut self.to_host, &mut sent);
@@ -99,7 +99,7 @@ impl Wire {
             let mut sent = Byte {
                 start_ns: at_ns,
                 end_ns: at_ns + self.byte_ns,
-                byte,
+                value: byte,
             };
             at_ns = sent.end_ns;
             if sent.start_ns < self.host_free_ns {
@@ -128,7 +128,7 @@ impl Wire {
     pub(super) fn deliver(&mut self, now_ns: u64, out: &mut Vec<u8>) {
         while let Some(handed_ns) = self.next_delivery_ns().filter(|&at| at <= now_ns) {
             while let Some(byte) = self.to_host.pop_front_if(|byte| byte.end_ns <= handed_ns) {
-                out.push(byte.byte);
+                out.push(byte.value);
             }
         }
     }
@@ -156,9 +156,9 @@ fn collide(waiting: &mut VecDeque<Byte>, sent: &mut Byte) -> u64 {
         if other.overlaps(sent) {
             // Bits do not line up unless both began together.
             let shift = u32::from(other.start_ns != sent.start_ns);
-            let low = other.byte & sent.byte.rotate_left(shift);
-            other.byte = low;
-            sent.byte = low;
+            let low = other.value & sent.value.rotate_left(shift);
+            other.value = low;
+            sent.value = low;
             met += 1;
         }
     }

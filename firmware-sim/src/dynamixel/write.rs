@@ -80,7 +80,7 @@ impl Servo {
                 return error::ACCESS;
             };
             let size = usize::from(row.size);
-            let aligned = (here - row.address) % u16::from(row.size) == 0;
+            let aligned = (here - row.address).is_multiple_of(u16::from(row.size));
             let locked = row.area == Area::Eeprom && self.torque_is_on();
             if !Table::is_writable(row) || locked || !aligned {
                 return error::ACCESS;
@@ -188,11 +188,7 @@ impl Servo {
             }
             Reg::BusWatchdog => {
                 self.last_heard_ns = at_ns;
-                if !self
-                    .facts
-                    .watchdog_from
-                    .is_some_and(|from| self.firmware() >= from)
-                {
+                if self.facts.watchdog_from.is_none_or(|from| self.firmware() < from) {
                     self.table.set(Reg::BusWatchdog, 0);
                 }
             }

@@ -157,7 +157,7 @@ fn fault(column: u32, message: String) -> LineFault {
 
 /// The words of a line before its comment, each with its column in characters.
 struct Words<'a> {
-    words: Vec<(u32, &'a str)>,
+    all: Vec<(u32, &'a str)>,
     next: usize,
     end: u32,
 }
@@ -165,25 +165,25 @@ struct Words<'a> {
 impl<'a> Words<'a> {
     fn new(line: &'a str) -> Self {
         let text = line.split('#').next().unwrap_or_default();
-        let mut words = Vec::new();
+        let mut all = Vec::new();
         for word in text.split_whitespace() {
             let offset = word.as_ptr() as usize - text.as_ptr() as usize;
-            words.push((text[..offset].chars().count() as u32 + 1, word));
+            all.push((text[..offset].chars().count() as u32 + 1, word));
         }
         Self {
-            words,
+            all,
             next: 0,
             end: text.trim_end().chars().count() as u32 + 1,
         }
     }
 
     fn peek(&self) -> Option<&'a str> {
-        self.words.get(self.next).map(|&(_, word)| word)
+        self.all.get(self.next).map(|&(_, word)| word)
     }
 
     /// Column of the next word, or just behind the last.
     fn column(&self) -> u32 {
-        self.words.get(self.next).map_or(self.end, |&(column, _)| column)
+        self.all.get(self.next).map_or(self.end, |&(column, _)| column)
     }
 
     fn take(&mut self, word: &str) -> bool {

@@ -55,6 +55,11 @@ fn reads_every_action() {
             at(3_000_000, Touch::PowerCycle),
         ]
     );
+}
+
+#[test]
+fn reads_every_touch_of_a_tablet() {
+    let at = |at_us, touch| Action { at_us, touch };
     let text = "at 0 pen -1 0.5 pressure 0.75 tip button 1 button 2 eraser tilt -10 20\n\
                 at 1 puck 0 0 button 3 wheel -2\nat 2 pen away";
     let script = Script::parse(Device::Tablet, text).expect("reads");

@@ -35,7 +35,8 @@ impl Pointer {
         }
     }
 
-    pub(super) fn puck(puck: &Puck) -> Self {
+    /// A puck whose model lacks the wheel reports no clicks.
+    pub(super) fn puck(puck: &Puck, has_wheel: bool) -> Self {
         Self {
             stylus: false,
             near: true,
@@ -43,7 +44,7 @@ impl Pointer {
             y: puck.y,
             pressure: 0.0,
             buttons: puck.buttons,
-            wheel: puck.wheel,
+            wheel: if has_wheel { puck.wheel } else { 0 },
             tilt_deg: [0; 2],
         }
     }
@@ -108,7 +109,8 @@ impl Scale {
     }
 
     fn counts(&self, pointer: &Pointer) -> [u32; 2] {
-        let axis = |at: f64, max: u32| ((at.clamp(-1.0, 1.0) + 1.0) / 2.0 * f64::from(max)).round() as u32;
+        let axis =
+            |at: f64, max: u32| (f64::midpoint(at.clamp(-1.0, 1.0), 1.0) * f64::from(max)).round() as u32;
         let up = if self.upper_origin { -pointer.y } else { pointer.y };
         [axis(pointer.x, self.max[0]), axis(up, self.max[1])]
     }

@@ -13,6 +13,8 @@ fn graphire() -> Model {
         pressure_max: 511,
         eraser_bit: 3,
         tilt: false,
+        answers_size: true,
+        wheel: true,
     }
 }
 
@@ -24,6 +26,23 @@ fn digitizer() -> Model {
         tilt: true,
         ..graphire()
     }
+}
+
+#[test]
+fn the_shipped_models_are_what_their_profiles_say() {
+    let profiles = device_profiles::Profiles::builtin();
+    let graphire = Model::from(profiles.tablet("graphire-serial").expect("shipped"));
+    let mut tablet = WacomIv::new(graphire, 0);
+    let mut now = 0;
+    assert!(ask(&mut tablet, &mut now, b"~#", 100_000).starts_with(b"~#ET"));
+    assert_eq!(
+        ask(&mut tablet, &mut now, b"~C\r", 100_000),
+        b"",
+        "a Graphire keeps its size to itself"
+    );
+    let digitizer = Model::from(profiles.tablet("digitizer-ii").expect("shipped"));
+    let mut tablet = WacomIv::new(digitizer, 0);
+    assert_eq!(ask(&mut tablet, &mut now, b"~C\r", 100_000), b"~C15240,15240\r");
 }
 
 fn ask(tablet: &mut WacomIv, now_us: &mut u64, bytes: &[u8], wait_us: u64) -> Vec<u8> {
