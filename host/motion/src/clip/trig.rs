@@ -14,7 +14,7 @@ pub(super) const LANES: usize = 16;
 /// Largest angle for which the two-part reduction is exact, radians: 2^20 quarter turns, less one for rounding.
 pub(super) const LARGEST_RAD: f64 = 1.6e6;
 
-const TWO_OVER_PI: f64 = 6.36619772367581382433e-01;
+const TWO_OVER_PI: f64 = std::f64::consts::FRAC_2_PI;
 /// The first 33 bits of a quarter turn, so that its product with a count below 2^20 is exact.
 const QUARTER_HIGH: f64 = 1.57079632673412561417e+00;
 /// What a quarter turn has beyond them.

@@ -47,7 +47,7 @@ enum Kind {
 }
 
 /// The unit vector of any finite direction longer than zero, at any scale.
-pub(crate) fn unit(direction: DVec3) -> Result<DVec3, BadDirection> {
+pub fn unit(direction: DVec3) -> Result<DVec3, BadDirection> {
     let largest = direction.abs().max_element();
     if !direction.is_finite() || largest == 0.0 {
         return Err(BadDirection);

@@ -13,11 +13,10 @@ mod sweep;
 
 pub use build::{FigureError, FigureWarning, LinkSpec};
 pub use frame::{Zyz, frame_of, matrix_from_zyz, zyz_from_matrix};
-pub use great_circle::{BadDirection, DirectionLaw, GreatCircle};
+pub use great_circle::{BadDirection, DirectionLaw, GreatCircle, unit};
 pub use place::Placed;
 pub use sweep::{Sweep, TwistLaw};
 
-pub(crate) use great_circle::unit;
 pub(crate) use sweep::twist_of;
 
 use glam::DVec3;

@@ -25,6 +25,12 @@ const GRID_BEST: usize = 24;
 const BRANCH_SHARE: f64 = 0.5;
 /// Steps of one refinement; a warm start needs three or four.
 const STEPS_MAX: usize = 200;
+/// A step that gains less than this share has arrived.
+const LEAST_GAIN: f64 = 1e-15;
+/// A step that gains less than this share is slow, and the next may be longer.
+const SLOW_GAIN: f64 = 0.1;
+/// The longest stride, in steps.
+const STRIDE_MAX: f64 = 64.0;
 /// A joint this near its limit stands at it, radians.
 const LIMIT_SLACK_RAD: f64 = 1e-9;
 
@@ -198,41 +204,30 @@ impl Goal<'_> {
 
     /// Walks downhill from there to the nearest minimum in the box.
     fn refine(&self, start: Angles) -> (Angles, f64) {
-        let n = self.count();
         let mut angles = start;
         let mut reached = self.reach(&angles);
         let mut cost = self.cost_of(&reached, &angles);
-        let mut damping = 1e-3;
+        let (mut damping, mut stride) = (1e-3, 1.0);
         for _ in 0..STEPS_MAX {
-            let (gradient, mut matrix) = self.normal_equations(&reached, &angles);
-            let mut downhill = gradient.map(|g| -g);
-            for i in 0..GROUP_JOINTS_MAX {
-                let held = i >= n || self.pushes_outwards(i, angles[i], downhill[i]);
-                if held {
-                    matrix[i] = [0.0; 3];
-                    for row in &mut matrix {
-                        row[i] = 0.0;
-                    }
-                    matrix[i][i] = 1.0;
-                    downhill[i] = 0.0;
-                } else {
-                    matrix[i][i] *= 1.0 + damping;
-                }
-            }
-            let columns = matrix.map(DVec3::from_array);
-            // Symmetric, so rows serve as columns; damped, so it has an inverse.
-            let step =
-                DMat3::from_cols(columns[0], columns[1], columns[2]).inverse() * DVec3::from_array(downhill);
+            let step = self.step(&reached, &angles, damping) * stride;
             let next = self.boxed([angles[0] + step.x, angles[1] + step.y, angles[2] + step.z]);
             let next_reached = self.reach(&next);
             let next_cost = self.cost_of(&next_reached, &next);
             if next_cost < cost {
                 let gain = cost - next_cost;
+                if gain <= LEAST_GAIN * cost && stride == 1.0 {
+                    return (next, next_cost);
+                }
+                // Far from the goal the model is too stiff and steps are too short: try longer ones.
+                stride = if gain < SLOW_GAIN * cost {
+                    (stride * 2.0).min(STRIDE_MAX)
+                } else {
+                    1.0
+                };
                 (angles, reached, cost) = (next, next_reached, next_cost);
                 damping = (damping * 0.3).max(1e-12);
-                if gain <= 1e-15 * cost {
-                    break;
-                }
+            } else if stride > 1.0 {
+                stride = 1.0;
             } else if damping > 1e9 || next == angles {
                 break;
             } else {
@@ -240,6 +235,27 @@ impl Goal<'_> {
             }
         }
         (angles, cost)
+    }
+
+    /// The damped step from there; joints at a limit that would push outwards are held.
+    fn step(&self, reached: &Reached, angles: &Angles, damping: f64) -> DVec3 {
+        let (gradient, mut matrix) = self.normal_equations(reached, angles);
+        let mut downhill = gradient.map(|g| -g);
+        for i in 0..GROUP_JOINTS_MAX {
+            if i >= self.count() || self.pushes_outwards(i, angles[i], downhill[i]) {
+                for row in &mut matrix {
+                    row[i] = 0.0;
+                }
+                matrix[i] = [0.0; GROUP_JOINTS_MAX];
+                matrix[i][i] = 1.0;
+                downhill[i] = 0.0;
+            } else {
+                matrix[i][i] *= 1.0 + damping;
+            }
+        }
+        // Symmetric, so rows serve as columns; damped, so it has an inverse.
+        let [a, b, c] = matrix.map(DVec3::from_array);
+        DMat3::from_cols(a, b, c).inverse() * DVec3::from_array(downhill)
     }
 
     fn pushes_outwards(&self, joint: usize, angle: f64, downhill: f64) -> bool {
@@ -255,7 +271,8 @@ impl Goal<'_> {
             let (mut angles, mut rest) = ([0.0; GROUP_JOINTS_MAX], cell);
             for (angle, step) in angles.iter_mut().zip(&self.task.steps) {
                 let share = (rest % GRID_POINTS) as f64 / (GRID_POINTS - 1) as f64;
-                *angle = step.range.start + step.range.length() * share;
+                // Clamped, since start plus length can round to a hair beyond the end.
+                *angle = step.range.clamp(step.range.start + step.range.length() * share);
                 rest /= GRID_POINTS;
             }
             starts.push((self.cost(&angles), angles));

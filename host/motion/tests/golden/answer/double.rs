@@ -11,8 +11,8 @@ impl From<KineticsError> for Refusal {
         use KineticsError as E;
         match error {
             E::Times(times) => times.into(),
-            E::EndCoefficient { .. } => Self::new("end_coefficient"),
-            E::NoSuchCoefficient { index, .. } => Self::at("bad_index", "index", index),
+            // The files have one word for every coefficient that may not move.
+            E::EndCoefficient { .. } | E::NoSuchCoefficient { .. } => Self::new("end_coefficient"),
             E::EditNotFinite { index } => Self::at("non_finite", "index", index),
             E::NoCoefficients { .. } => Self::new("no_coefficients"),
         }

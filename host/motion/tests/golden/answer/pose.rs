@@ -4,7 +4,9 @@ use super::number::{index, list, number, numbers, point, rows, vector};
 use super::{Answered, Refusal};
 use glam::{DMat3, DVec2};
 use motion::figure::posing::{self, PosingError, Side, Sight, View};
-use motion::figure::{BadDirection, GreatCircle, Sweep, Zyz, frame_of, matrix_from_zyz, zyz_from_matrix};
+use motion::figure::{
+    BadDirection, GreatCircle, Sweep, Zyz, frame_of, matrix_from_zyz, unit, zyz_from_matrix,
+};
 use motion::{
     Clip, ClipError, DirectionLaw, Figure, FigureError, FigureKey, FigurePose, Keyframes, KineticsMode,
     LinkPose, LinkSpec, TwistLaw,
@@ -68,7 +70,7 @@ pub(super) fn zyz(input: &Value) -> Value {
 
 pub(super) fn direction(input: &Value) -> Answered {
     let from = point(&input["d0"]);
-    let start = from.try_normalize().ok_or(BadDirection)?;
+    let start = unit(from)?;
     let (sin, cos) = number(&input["twist0"]).to_radians().sin_cos();
     let frame = frame_of(start);
     let own_x = frame.x_axis * cos + frame.y_axis * sin;
