@@ -41,8 +41,7 @@ fn edits_do_what_their_words_say() {
         (show.clip.as_str(), clip(&show).times_secs()),
         ("clip", vec![0.0, 1.0, 2.0])
     );
-    type Row = (EditCommand, Vec<f64>, &'static str, bool);
-    let cases: [Row; 6] = [
+    let cases: [(EditCommand, Vec<f64>, &str, bool); 6] = [
         (
             EditCommand::StoreKey { secs: 1.5 },
             vec![0.0, 1.0, 1.5, 2.0],

@@ -22,7 +22,7 @@ pub fn check_file(path: &Path) -> Findings {
     match extension.as_deref() {
         _ if path.is_dir() => check_show(path, &mut found),
         Some("toml") if path.file_name().is_some_and(|name| name == "show.toml") => {
-            check_show(path, &mut found)
+            check_show(path, &mut found);
         }
         Some("toml") => with_source(path, &mut found, check_clip),
         Some("str") => with_source(path, &mut found, |source, found| {
@@ -64,29 +64,21 @@ fn check_show(path: &Path, found: &mut Findings) {
 
 /// What is only judged when a show is played: its networks, and whether its clips can be built.
 fn check_parts(show: &Show, folder: &Path, found: &mut Findings) {
-    let mut texts: Vec<(PathBuf, &str)> = show
-        .networks
-        .iter()
-        .map(|network| {
-            (
-                folder.join("networks").join(format!("{}.ps300", network.name)),
-                network.text.as_str(),
-            )
-        })
-        .collect();
+    let paths = folder::network_paths(folder);
+    let networks = paths
+        .into_iter()
+        .zip(show.networks.iter().map(|network| network.text.as_str()));
+    let mut texts: Vec<(PathBuf, &str)> = networks.collect();
     texts.push((folder.join("patches.ps300"), &show.patches));
-    let Some(figure) = &show.figure else {
-        texts
-            .iter()
-            .for_each(|(path, text)| check_network(&Source::from_text(path, *text), found));
-        return;
-    };
-    let beside = |extension: &str| folder.join("figure").join(format!("{}.{extension}", figure.name));
-    texts.push((beside("pri"), &figure.primitives));
-    texts.push((beside("shp"), &figure.shapes));
+    if let Some(figure) = &show.figure {
+        let beside = |extension: &str| folder.join("figure").join(format!("{}.{extension}", figure.name));
+        texts.push((beside("pri"), &figure.primitives));
+        texts.push((beside("shp"), &figure.shapes));
+    }
     for (path, text) in texts {
         check_network(&Source::from_text(&path, text), found);
     }
+    let Some(figure) = &show.figure else { return };
     for (name, clip) in &show.clips {
         let path = folder.join("clips").join(format!("{name}.toml"));
         match clip.clip(&figure.figure) {

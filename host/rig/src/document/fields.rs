@@ -3,6 +3,8 @@
 //! Apart from the file formats because all of them want the same: known keys only, finite numbers,
 //! a place for every error.
 
+use std::fmt::Write as _;
+
 use glam::DVec3;
 use toml::de::{DeArray, DeTable, DeValue};
 
@@ -127,6 +129,16 @@ impl<'t> Placed<'t> {
             found.error(self.fault("this number is not finite"));
         }
         finite
+    }
+
+    /// A number above zero.
+    pub(super) fn above_zero(self, found: &mut Findings) -> Option<f64> {
+        let number = self.number(found)?;
+        if number > 0.0 {
+            return Some(number);
+        }
+        found.error(self.fault(format!("must be above 0, not {number}")));
+        None
     }
 
     /// A whole number not below zero.
@@ -259,7 +271,10 @@ pub(super) fn quoted(text: &str) -> String {
             '\\' => out.push_str("\\\\"),
             '\n' => out.push_str("\\n"),
             '\t' => out.push_str("\\t"),
-            control if control.is_control() => out.push_str(&format!("\\u{:04X}", control as u32)),
+            control if control.is_control() => {
+                // Writing to a string cannot fail.
+                let _ = write!(out, "\\u{:04X}", control as u32);
+            }
             plain => out.push(plain),
         }
     }

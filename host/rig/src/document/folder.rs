@@ -60,6 +60,20 @@ pub fn load(path: &Path) -> Result<Loaded, FileErrors> {
     })
 }
 
+/// Where the networks that a show folder names lie, in order.
+pub(super) fn network_paths(folder: &Path) -> Vec<PathBuf> {
+    let text = Source::open(&folder.join(show_file::FILE))
+        .ok()
+        .and_then(|source| show_file::read(&source, &mut Findings::default()));
+    text.map(|text| {
+        text.networks
+            .iter()
+            .map(|named| folder.join(&named.name))
+            .collect()
+    })
+    .unwrap_or_default()
+}
+
 /// The name of the figure that a `show.toml` names.
 pub(super) fn figure_name(show: &Path) -> Option<String> {
     let source = Source::open(show).ok()?;
@@ -140,11 +154,11 @@ fn read_figure(folder: &Path, named: &Named, show: &Source, found: &mut Findings
         shapes: shapes.map(|source| source.text().to_owned()).unwrap_or_default(),
     };
     let mut figure = FigureDoc::read(&named.name, &structure, texts, found)?;
-    if let Some((skeleton, source)) = skeleton {
-        if let Err(message) = figure.set_skeleton(skeleton) {
-            let hint = "exports will build a skeleton from the figure; delete the .bvh to be rid of this";
-            found.warn(source.error(0, message).with_hint(hint));
-        }
+    if let Some((skeleton, source)) = skeleton
+        && let Err(message) = figure.set_skeleton(skeleton)
+    {
+        let hint = "exports will build a skeleton from the figure; delete the .bvh to be rid of this";
+        found.warn(source.error(0, message).with_hint(hint));
     }
     Some(figure)
 }

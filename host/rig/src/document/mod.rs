@@ -8,7 +8,6 @@ pub mod bvh;
 pub mod check;
 mod clip;
 mod clip_file;
-mod clip_rows;
 pub mod convert;
 pub mod csv;
 pub mod disk;

@@ -5,7 +5,6 @@
 use std::fmt::Write as _;
 use std::path::{Component, Path};
 
-use super::clip_file::above_zero;
 use super::fault::Findings;
 use super::fields::{self, Fields, Placed, quoted};
 use super::limits::FILES_MAX;
@@ -191,7 +190,7 @@ fn read_view(value: Placed<'_>, found: &mut Findings) -> Option<ViewState> {
     let elevation = table
         .required("elevation_deg", found)
         .and_then(|v| v.number(found));
-    let scale = table.required("scale", found).and_then(|v| above_zero(v, found));
+    let scale = table.required("scale", found).and_then(|v| v.above_zero(found));
     let centre = table.required("centre", found).and_then(|v| v.vector(found));
     table.finish(found);
     Some(ViewState {

@@ -40,15 +40,18 @@ impl Source {
     /// Reads a file whole. Refuses what is too large or is not UTF-8, naming the first bad byte's place.
     pub fn open(path: &Path) -> Result<Self, FileError> {
         let file = File::open(path).map_err(|error| cannot(path, "open", &error))?;
+        let claimed = file.metadata().map_or(0, |facts| facts.len());
         let mut bytes = Vec::new();
-        file.take(FILE_BYTES_MAX + 1)
-            .read_to_end(&mut bytes)
-            .map_err(|error| cannot(path, "read", &error))?;
-        if bytes.len() as u64 > FILE_BYTES_MAX {
-            return Err(
-                FileError::whole(path, format!("larger than the {FILE_BYTES_MAX} bytes allowed"))
-                    .with_hint("split it, or check that this is the file meant"),
-            );
+        if claimed <= FILE_BYTES_MAX {
+            // What is no plain file claims nothing; the bound holds all the same.
+            let mut bounded = file.take(FILE_BYTES_MAX + 1);
+            bounded
+                .read_to_end(&mut bytes)
+                .map_err(|error| cannot(path, "read", &error))?;
+        }
+        if claimed.max(bytes.len() as u64) > FILE_BYTES_MAX {
+            let message = format!("larger than the {FILE_BYTES_MAX} bytes allowed");
+            return Err(FileError::whole(path, message).with_hint("check that this is the file meant"));
         }
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self::from_text(path, text)),
@@ -183,5 +186,16 @@ mod tests {
         std::fs::write(&path, b"name = 1\nx\xff").expect("writes");
         let error = Source::open(&path).expect_err("not UTF-8");
         assert_eq!((error.line, error.column), (2, 2));
+    }
+
+    #[test]
+    fn a_file_that_is_too_large_is_not_even_read() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("huge.bvh");
+        File::create(&path)
+            .and_then(|file| file.set_len(FILE_BYTES_MAX + 1))
+            .expect("a file of holes");
+        let error = Source::open(&path).expect_err("too large");
+        assert!(error.message.contains("larger than"), "{error}");
     }
 }

@@ -1,7 +1,7 @@
 //! The row form of clip files: one line of numbers a key, for clips made by recording.
 //!
 //! Apart because it trades readability for size: a row holds `secs x y z` of the root and then α β γ of
-//! each link in degrees (see [`zyz`](super::zyz)), rounded to 1e-7 degrees. That moves the end of a link by
+//! each link in degrees (see [`zyz`](crate::document::zyz)), rounded to 1e-7 degrees. That moves the end of a link by
 //! less than two billionths of its length.
 
 use std::fmt::Write as _;
@@ -9,13 +9,13 @@ use std::fmt::Write as _;
 use glam::DVec3;
 use motion::Figure;
 
-use super::clip::ClipDoc;
-use super::clip_file::{KeyText, LinkText};
-use super::fault::Findings;
-use super::fields::{Placed, quoted};
-use super::limits::KEYS_MAX;
-use super::source::{finite, words};
-use super::zyz;
+use super::{KeyText, LinkText};
+use crate::document::clip::ClipDoc;
+use crate::document::fault::Findings;
+use crate::document::fields::{Placed, quoted};
+use crate::document::limits::KEYS_MAX;
+use crate::document::source::{finite, words};
+use crate::document::zyz;
 
 /// Clips with more keys than this are written in rows: nobody keys so many poses by hand.
 const KEYS_BY_HAND_MAX: usize = 200;
@@ -39,11 +39,11 @@ pub(super) fn suits(clip: &ClipDoc, figure: &Figure) -> bool {
 pub(super) fn write(clip: &ClipDoc, figure: &Figure, out: &mut String) {
     let names: Vec<String> = figure.links().iter().map(|link| quoted(&link.name)).collect();
     out.push_str("\n[frames]\n");
-    out.push_str(&format!("links = [{}]\n", names.join(", ")));
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "links = [{}]", names.join(", "));
     out.push_str(OPENING);
     for key in &clip.keys {
         let root = key.pose.root;
-        // Writing to a string cannot fail.
         let _ = write!(out, "{} {} {} {}", key.secs, root.x, root.y, root.z);
         for link in &key.pose.links {
             push_link(link.direction, link.twist_rad, out);

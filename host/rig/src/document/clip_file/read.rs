@@ -1,0 +1,181 @@
+//! Reading: laws, then keys or rows, then the names of links.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use motion::Figure;
+
+use super::{ClipText, DIRECTION_LAWS, KINETICS, KeyText, LinkText, TWIST_LAWS, bind, rows, version_0};
+use crate::document::clip::ClipDoc;
+use crate::document::fault::Findings;
+use crate::document::fields::{self, Fields, Placed};
+use crate::document::limits::KEYS_MAX;
+use crate::document::show_file;
+use crate::document::source::Source;
+
+/// Reads a clip file for `figure`. Without a figure everything but the link names is checked.
+pub(in crate::document) fn read(
+    source: &Source,
+    figure: Option<&Figure>,
+    found: &mut Findings,
+) -> Option<ClipDoc> {
+    let table = fields::parse(source, found);
+    if !found.errors.is_empty() {
+        return None;
+    }
+    let mut file = Fields::of_file(source, &table);
+    let version = show_file::version(&mut file, found)?;
+    let text = if version == 0 {
+        version_0::read(file, found)
+    } else {
+        read_1(file, found)
+    };
+    check_times(source, &text.keys, found);
+    let keys = match figure {
+        Some(figure) => bind::bind(source, &text.keys, figure, found),
+        None => Vec::new(),
+    };
+    let mut clip = text.laws;
+    check_edits(source, &clip, text.keys.len(), found);
+    clip.keys = keys;
+    found.errors.is_empty().then_some(clip)
+}
+
+fn read_1<'t>(mut file: Fields<'t>, found: &mut Findings) -> ClipText<'t> {
+    let mut text = ClipText::default();
+    let laws = &mut text.laws;
+    if let Some(law) = file
+        .optional("direction")
+        .and_then(|v| v.choice(&DIRECTION_LAWS, found))
+    {
+        laws.direction_law = law;
+    }
+    if let Some(law) = file.optional("twist").and_then(|v| v.choice(&TWIST_LAWS, found)) {
+        laws.twist_law = law;
+    }
+    if let Some(mode) = file.optional("kinetics").and_then(|v| v.choice(&KINETICS, found)) {
+        laws.kinetics = mode;
+    }
+    laws.keep_forward = file
+        .optional("keep_forward")
+        .and_then(|v| v.boolean(found))
+        .unwrap_or(false);
+    laws.coefficient_edits = file
+        .optional("adjust")
+        .map(|v| adjustments(v, found))
+        .unwrap_or_default();
+    laws.frame_secs = file.optional("frame_secs").and_then(|v| v.above_zero(found));
+    let keys = file
+        .optional("key")
+        .and_then(|v| v.array(found))
+        .unwrap_or_default();
+    let rows = file.optional("frames");
+    file.finish(found);
+    if let (Some(key), Some(rows)) = (keys.first(), rows) {
+        found.error(key.fault("a clip has either [[key]] tables or [frames] rows, not both"));
+        found.error(rows.fault("a clip has either [[key]] tables or [frames] rows, not both"));
+    }
+    if too_many(&keys, found) {
+        return text;
+    }
+    text.keys = match rows {
+        Some(rows) => rows::read(rows, found),
+        None => keys.into_iter().filter_map(|key| read_key(key, found)).collect(),
+    };
+    text
+}
+
+pub(super) fn too_many(keys: &[Placed<'_>], found: &mut Findings) -> bool {
+    let Some(key) = keys.get(KEYS_MAX) else {
+        return false;
+    };
+    found.error(key.fault(format!("{} keys; at most {KEYS_MAX} are read", keys.len())));
+    true
+}
+
+fn adjustments(value: Placed<'_>, found: &mut Findings) -> Vec<(usize, f64)> {
+    let mut sums = BTreeMap::new();
+    for pair in value.array(found).unwrap_or_default() {
+        let Some([index, by]) = pair.numbers::<2>(found) else {
+            continue;
+        };
+        if index < 0.0 || index.fract() != 0.0 || index > (KEYS_MAX + 2) as f64 {
+            found.error(pair.fault(format!(
+                "expected a coefficient's number from 0 up, found {index}"
+            )));
+            continue;
+        }
+        *sums.entry(index as usize).or_insert(0.0) += by;
+    }
+    sums.into_iter().collect()
+}
+
+fn read_key<'t>(key: Placed<'t>, found: &mut Findings) -> Option<KeyText<'t>> {
+    let mut table = key.fields(found)?;
+    let secs = table.required("secs", found).and_then(|v| v.number(found));
+    let root = table.required("root", found).and_then(|v| v.vector(found));
+    let links = table.required("links", found).and_then(|v| v.entries(found));
+    table.finish(found);
+    let read_link = |(name, at, value): (&'t str, usize, Placed<'t>)| {
+        let mut link = value.fields(found)?;
+        let direction = link
+            .required("direction", found)
+            .and_then(|v| direction(v, found));
+        let twist = link.optional("twist").map_or(Some(0.0), |v| v.number(found));
+        let length = link.optional("length").and_then(|v| v.above_zero(found));
+        link.finish(found);
+        Some(LinkText {
+            name,
+            at,
+            direction: direction?,
+            twist_rad: twist?.to_radians(),
+            length,
+        })
+    };
+    let links = links?.into_iter().filter_map(read_link).collect();
+    Some(KeyText {
+        at: key.at,
+        secs: secs?,
+        root: root?,
+        links,
+    })
+}
+
+/// A direction as written, made a unit vector unless it is one already: what was written by this
+/// program comes back to the last bit.
+fn direction(value: Placed<'_>, found: &mut Findings) -> Option<DVec3> {
+    let written = value.vector(found)?;
+    if (written.length_squared() - 1.0).abs() < 1e-14 {
+        return Some(written);
+    }
+    let largest = written.abs().max_element();
+    let unit = (largest > 0.0)
+        .then(|| written / largest)
+        .and_then(DVec3::try_normalize);
+    if unit.is_none() {
+        found.error(value.fault("a direction cannot be zero"));
+    }
+    unit
+}
+
+fn check_times(source: &Source, keys: &[KeyText<'_>], found: &mut Findings) {
+    for pair in keys.windows(2) {
+        if pair[1].secs <= pair[0].secs {
+            let message = format!(
+                "key at {} s follows one at {} s; times must increase",
+                pair[1].secs, pair[0].secs
+            );
+            found.error(source.error(pair[1].at, message));
+        }
+    }
+}
+
+fn check_edits(source: &Source, clip: &ClipDoc, keys: usize, found: &mut Findings) {
+    let coefficients = keys + 2;
+    for &(index, _) in &clip.coefficient_edits {
+        if index == 0 || index + 1 >= coefficients {
+            let message = format!("`adjust` names coefficient {index}; {keys} keys leave 1 to {keys} free");
+            found.error(source.error(0, message));
+        }
+    }
+}
