@@ -208,3 +208,78 @@ fn check(before: &[Joint], joint: &mut Joint) -> Result<(), ChainError> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    fn joint(name: &str, parent: Option<u16>, kind: JointKind) -> Joint {
+        Joint {
+            name: name.into(),
+            parent: parent.map(JointIndex),
+            parent_from_joint: Rigid::from_xyz_rpy(DVec3::X, DVec3::ZERO),
+            kind,
+            range_rad: Interval::new(-1.0, 2.0),
+            speed_max_rad_per_s: 1.0,
+        }
+    }
+
+    const ABOUT_Z: JointKind = JointKind::Revolute {
+        axis: DVec3::new(0.0, 0.0, 2.0),
+    };
+
+    #[test]
+    fn rotations_are_inherited() {
+        let joints = vec![joint("a", None, ABOUT_Z), joint("b", Some(0), JointKind::Fixed)];
+        let chain = Chain::new(joints).expect("valid");
+        let mut placed = Vec::new();
+        chain.place(&Rigid::IDENTITY, &[FRAC_PI_2, 7.0], &mut placed);
+        assert!(placed[0].translation.abs_diff_eq(DVec3::X, 1e-15));
+        assert!(
+            placed[1]
+                .translation
+                .abs_diff_eq(DVec3::new(1.0, 1.0, 0.0), 1e-15)
+        );
+        assert!((placed[1].rotation * DVec3::X).abs_diff_eq(DVec3::Y, 1e-15));
+    }
+
+    #[test]
+    fn what_is_no_chain() {
+        let spoilt = |spoil: fn(&mut Joint)| {
+            let mut one = joint("a", None, ABOUT_Z);
+            spoil(&mut one);
+            Chain::new(vec![one]).err()
+        };
+        assert!(matches!(
+            spoilt(|j| j.parent = Some(JointIndex(0))),
+            Some(ChainError::ParentAfterChild { .. })
+        ));
+        assert!(matches!(
+            spoilt(|j| j.range_rad = Interval::new(1.0, 0.0)),
+            Some(ChainError::BadRange { .. })
+        ));
+        assert!(matches!(
+            spoilt(|j| j.speed_max_rad_per_s = 0.0),
+            Some(ChainError::BadSpeed { .. })
+        ));
+        let no_axis = |j: &mut Joint| j.kind = JointKind::Revolute { axis: DVec3::ZERO };
+        assert!(matches!(spoilt(no_axis), Some(ChainError::BadAxis { .. })));
+        let nowhere = |j: &mut Joint| j.parent_from_joint.translation.x = f64::NAN;
+        assert!(matches!(spoilt(nowhere), Some(ChainError::NotFinite { .. })));
+        let twins = vec![joint("a", None, ABOUT_Z), joint("a", Some(0), ABOUT_Z)];
+        assert_eq!(
+            Chain::new(twins).err(),
+            Some(ChainError::DuplicateName { name: "a".into() })
+        );
+    }
+
+    #[test]
+    fn rest_is_as_near_to_zero_as_the_range_allows() {
+        let mut away = joint("a", None, ABOUT_Z);
+        away.range_rad = Interval::new(0.3, 2.0);
+        let chain = Chain::new(vec![away, joint("b", Some(0), ABOUT_Z)]).expect("valid");
+        assert_eq!(chain.rest_angles(), [0.3, 0.0]);
+        assert_eq!(chain.by_name("b"), Some(JointIndex(1)));
+    }
+}

@@ -267,3 +267,103 @@ fn fixed_between(chain: &Chain, ancestor: Option<JointIndex>, joint: JointIndex)
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chain::{Joint, Rigid};
+    use crate::curve::Interval;
+    use crate::figure::LinkSpec;
+    use glam::DVec3;
+
+    fn chain() -> Arc<Chain> {
+        let joint = |name: &str, parent: Option<u16>, kind| Joint {
+            name: name.into(),
+            parent: parent.map(JointIndex),
+            parent_from_joint: Rigid::from_xyz_rpy(DVec3::ZERO, DVec3::new(0.5, 0.0, 0.0)),
+            kind,
+            range_rad: Interval::new(-1.0, 1.0),
+            speed_max_rad_per_s: 2.0,
+        };
+        let turns = |axis| JointKind::Revolute { axis };
+        let joints = vec![
+            joint("a", None, turns(DVec3::X)),
+            joint("bracket", Some(0), JointKind::Fixed),
+            joint("b", Some(1), turns(DVec3::Y)),
+            joint("aside", Some(0), turns(DVec3::Z)),
+        ];
+        Arc::new(Chain::new(joints).expect("valid"))
+    }
+
+    fn retarget(groups: &[(u16, &[u16])]) -> Result<Retarget, RetargetError> {
+        let link = |number, children: &[(u32, DVec3)]| LinkSpec {
+            number,
+            dof: 2,
+            length: 1.0,
+            children: children.to_vec(),
+            ..LinkSpec::default()
+        };
+        let (figure, _) = Figure::new(&[link(0, &[(1, DVec3::Z)]), link(1, &[])]).expect("valid");
+        let groups: Vec<Group> = groups
+            .iter()
+            .map(|(link, joints)| Group {
+                link: LinkIndex(*link),
+                joints: joints.iter().copied().map(JointIndex).collect(),
+                joint_from_link: DQuat::IDENTITY,
+            })
+            .collect();
+        Retarget::new(Arc::new(figure), chain(), None, &groups)
+    }
+
+    #[test]
+    fn fixed_joints_between_are_skipped() {
+        assert!(retarget(&[(0, &[0, 2]), (1, &[3])]).is_ok());
+    }
+
+    #[test]
+    fn groups_that_cannot_follow() {
+        let refused = |groups: &[(u16, &[u16])]| retarget(groups).err();
+        let bracket = JointIndex(1);
+        assert_eq!(
+            refused(&[(0, &[1])]),
+            Some(RetargetError::NoSuchJoint {
+                group: 0,
+                joint: bracket
+            })
+        );
+        assert_eq!(
+            refused(&[(0, &[])]),
+            Some(RetargetError::JointCount { group: 0, joints: 0 })
+        );
+        let aside = JointIndex(3);
+        assert_eq!(
+            refused(&[(0, &[2, 3])]),
+            Some(RetargetError::NotInARow {
+                group: 0,
+                joint: aside
+            })
+        );
+        assert_eq!(
+            refused(&[(0, &[0]), (1, &[0])]),
+            Some(RetargetError::JointTwice { joint: JointIndex(0) })
+        );
+        let link = LinkIndex(2);
+        assert_eq!(
+            refused(&[(2, &[0])]),
+            Some(RetargetError::NoSuchLink {
+                group: 0,
+                link,
+                links: 2
+            })
+        );
+    }
+
+    #[test]
+    fn too_fast_is_said_by_how_much_and_of_whom() {
+        let retarget = retarget(&[(0, &[0, 2])]).expect("valid");
+        let (factor, joint) = retarget.slow_down(&[0.0; 4], &[0.1, 0.0, 0.4, 0.0], 0.1);
+        assert!((factor - 2.0).abs() < 1e-12);
+        assert_eq!(joint, Some(JointIndex(2)));
+        assert_eq!(retarget.slow_down(&[0.0; 4], &[0.1; 4], 1.0), (1.0, None));
+    }
+}
