@@ -9,6 +9,9 @@ use crate::kinetics::limit_slope;
 use crate::retarget::{Retarget, RetargetReport};
 use thiserror::Error;
 
+/// Most rows a clip is baked into: eleven hours at a hundred a second (our choice).
+const ROWS_MAX: f64 = 4e6;
+
 /// Why samples make no clip.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum JointClipError {
@@ -28,6 +31,15 @@ pub enum JointClipError {
     BadPeriod {
         /// What came.
         period_secs: f64,
+    },
+    /// Baking at that period would fill the memory.
+    #[error(
+        "{rows} rows are too many for one clip, {} are the most; use a longer period",
+        ROWS_MAX
+    )]
+    TooLong {
+        /// How many there would be.
+        rows: f64,
     },
     /// An angle is NaN or infinite.
     #[error("the angle of joint {joint} in row {row} is not finite")]
@@ -105,7 +117,11 @@ impl JointClip {
         }
         let chain = retarget.chain();
         // A hair less, so that a whole number of periods does not become one more by rounding.
-        let rows = (clip.duration_secs() / period_secs - 1e-9).ceil().max(0.0) as usize + 1;
+        let rows = (clip.duration_secs() / period_secs - 1e-9).ceil().max(0.0) + 1.0;
+        if rows > ROWS_MAX {
+            return Err(JointClipError::TooLong { rows });
+        }
+        let rows = rows as usize;
         let mut report = BakeReport {
             slow_down: 1.0,
             ..BakeReport::default()

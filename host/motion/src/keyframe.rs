@@ -101,12 +101,15 @@ impl Keyframes {
         {
             return Ok(kinetics);
         }
-        let ordering = if self.keep_forward {
+        kinetics.edited(&self.coefficient_edits, self.ordering())
+    }
+
+    fn ordering(&self) -> Ordering {
+        if self.keep_forward {
             Ordering::KeepForward
         } else {
             Ordering::Free
-        };
-        kinetics.edited(&self.coefficient_edits, ordering)
+        }
     }
 
     /// With a new key at its place in time. Coefficient edits are dropped, since they belong to the
@@ -156,7 +159,8 @@ impl Keyframes {
             Some((_, so_far)) => *so_far += change,
             None => new.coefficient_edits.push((index, change)),
         }
-        new.build_kinetics()?;
+        // Judged in any mode: one without coefficients refuses.
+        Kinetics::new(&new.times_secs(), new.kinetics)?.edited(&new.coefficient_edits, new.ordering())?;
         Ok(new)
     }
 

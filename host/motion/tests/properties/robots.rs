@@ -181,6 +181,10 @@ fn a_figure_is_baked_into_a_clip_of_angles() {
     .expect("sound");
     let start = retarget.chain().rest_angles();
     let (baked, report) = JointClip::bake(&clip, &retarget, &start, 0.02).expect("sound");
+    assert!(
+        JointClip::bake(&clip, &retarget, &start, 1e-9).is_err(),
+        "a thousand million rows"
+    );
     assert_eq!(baked.rows(), 61);
     assert!((baked.duration_secs() - clip.duration_secs()).abs() < 1e-9);
     assert_eq!(baked.joints(), ["yaw", "pitch", "roll", "elbow"]);
