@@ -22,15 +22,23 @@ pub(crate) enum Thing {
     Sink(SinkId),
 }
 
+/// Who gave a name its meaning, and so may take it away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Owner {
+    /// A definition; another may replace it.
+    Commands,
+    /// The machine or the host; commands leave it alone.
+    Machine,
+    /// A label inside a structure, with which it comes and goes.
+    Structure,
+}
+
 /// One name, or what is left of it after FORGET.
 pub(crate) struct Entry {
     /// As first written.
     pub(crate) name: Name,
     pub(crate) thing: Option<Thing>,
-    /// Made by the machine or the host: commands do not redefine or delete it.
-    pub(crate) fixed: bool,
-    /// Made by a label inside a structure, with which it comes and goes.
-    pub(crate) label: bool,
+    pub(crate) owner: Owner,
     /// Whether display nodes refer to it, or did.
     pub(crate) referenced: bool,
     /// Whether the name still leads here.
@@ -87,8 +95,7 @@ impl Names {
         self.entries.push(Entry {
             name: name.clone(),
             thing: None,
-            fixed: false,
-            label: false,
+            owner: Owner::Commands,
             referenced: false,
             known: true,
             defined: 0,
@@ -111,27 +118,27 @@ impl Names {
         let entry = self.entry_mut(id);
         entry.thing = Some(thing);
         entry.defined = defined;
-        entry.label = false;
+        entry.owner = Owner::Commands;
         id
     }
 
     /// Defines the label of a structure's member by its full name.
     pub(crate) fn define_label(&mut self, name: &Name, node: NodeId) {
         let id = self.define(name, Thing::Node(node));
-        self.entry_mut(id).label = true;
+        self.entry_mut(id).owner = Owner::Structure;
     }
 
     /// Defines what commands may not redefine.
     pub(crate) fn fix(&mut self, name: &Name, thing: Thing) {
         let id = self.define(name, thing);
-        self.entry_mut(id).fixed = true;
+        self.entry_mut(id).owner = Owner::Machine;
     }
 
     /// The name stays and denotes nothing.
     pub(crate) fn clear(&mut self, id: NameId) {
         let entry = self.entry_mut(id);
         entry.thing = None;
-        entry.label = false;
+        entry.owner = Owner::Commands;
     }
 
     /// The entry stays and the name leads to it no longer.
@@ -158,7 +165,7 @@ impl Names {
     pub(crate) fn defined(&self) -> Vec<NameId> {
         let mut ids: Vec<_> = (0..self.entries.len() as u32)
             .map(NameId)
-            .filter(|&id| self.entry(id).thing.is_some() && !self.entry(id).fixed)
+            .filter(|&id| self.entry(id).thing.is_some() && self.entry(id).owner != Owner::Machine)
             .collect();
         ids.sort_by_key(|&id| self.entry(id).defined);
         ids

@@ -97,9 +97,8 @@ impl Function for Clock {
         if !running {
             return Ok(());
         }
-        let interval = match u64::try_from(interval) {
-            Ok(interval @ 1..) => interval,
-            _ => return domain("the interval of a clock is at least 1; it stands still"),
+        let Ok(interval @ 1..) = u64::try_from(interval) else {
+            return domain("the interval of a clock is at least 1; it stands still");
         };
         self.elapsed += passed;
         let due = self.elapsed / interval;

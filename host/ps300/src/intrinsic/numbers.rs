@@ -127,9 +127,8 @@ struct Average {
 
 impl Function for Average {
     fn fire(&mut self, inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
-        let count = match usize::try_from(inputs.integer(2)?) {
-            Ok(count @ 1..=AVERAGED_MAX) => count,
-            _ => return domain("the count of an average lies between 1 and 1024"),
+        let Ok(count @ 1..=AVERAGED_MAX) = usize::try_from(inputs.integer(2)?) else {
+            return domain("the count of an average lies between 1 and 1024");
         };
         self.last.push_back(inputs.number(1)?);
         while self.last.len() > count {

@@ -1,4 +1,5 @@
 //! Switches, joins and wires.
+#![allow(clippy::unnecessary_wraps, reason = "the rows of a table share one signature")]
 
 use super::function::{Fault, Inputs, Outputs, domain};
 use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec, Times};
@@ -35,7 +36,7 @@ pub(super) const TABLE: &[Spec] = &[
         None,
         &[ANY, STORED],
         &[OUT],
-        |i, o| send(o, 1, i, 2),
+        constant,
         "Every message at <1>, of any kind, sends the value of <2>.",
         "D0 rendering networks",
         Used
@@ -45,7 +46,7 @@ pub(super) const TABLE: &[Spec] = &[
         None,
         &[ANY],
         &[OUT],
-        |i, o| send(o, 1, i, 1),
+        nop,
         "Passes messages on.",
         "D0 as a sink; passing on recollected",
         Used
@@ -125,7 +126,7 @@ pub(super) const TABLE: &[Spec] = &[
         None,
         &[TRUTH, STORED, STORED],
         &[OUT],
-        |i, o| send(o, 1, i, if i.boolean(1)? { 2 } else { 3 }),
+        boolean_choose,
         "TRUE sends the value of <2>, FALSE that of <3>.",
         "recollected",
         Medium
@@ -152,37 +153,57 @@ pub(super) const TABLE: &[Spec] = &[
     ),
 ];
 
-fn send(outputs: &mut Outputs<'_>, output: u8, inputs: &Inputs<'_>, input: u8) -> Result<(), Fault> {
+fn pass(outputs: &mut Outputs<'_>, output: u8, inputs: &Inputs<'_>, input: u8) {
     outputs.send(output, inputs.get(input).clone());
+}
+
+fn constant(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
+    pass(outputs, 1, inputs, 2);
+    Ok(())
+}
+
+fn nop(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
+    pass(outputs, 1, inputs, 1);
     Ok(())
 }
 
 fn route(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
     match u8::try_from(inputs.integer(1)?) {
-        Ok(output) if (1..=inputs.size()).contains(&output) => send(outputs, output, inputs, 2),
-        _ => domain("the switch has no output of that number"),
+        Ok(output) if (1..=inputs.size()).contains(&output) => pass(outputs, output, inputs, 2),
+        _ => return domain("the switch has no output of that number"),
     }
+    Ok(())
 }
 
 fn broute(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
-    send(outputs, if inputs.boolean(1)? { 1 } else { 2 }, inputs, 2)
+    pass(outputs, if inputs.boolean(1)? { 1 } else { 2 }, inputs, 2);
+    Ok(())
+}
+
+fn boolean_choose(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
+    pass(outputs, 1, inputs, if inputs.boolean(1)? { 2 } else { 3 });
+    Ok(())
 }
 
 fn choose(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
     let last = inputs.count();
     match u8::try_from(inputs.integer(last)?) {
-        Ok(chosen) if (1..last).contains(&chosen) => send(outputs, 1, inputs, chosen),
-        _ => domain("there is no stored input of that number"),
+        Ok(chosen) if (1..last).contains(&chosen) => pass(outputs, 1, inputs, chosen),
+        _ => return domain("there is no stored input of that number"),
     }
+    Ok(())
 }
 
 fn pass_all(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
-    (1..=inputs.count()).try_for_each(|number| send(outputs, number, inputs, number))
+    for number in 1..=inputs.count() {
+        pass(outputs, number, inputs, number);
+    }
+    Ok(())
 }
 
 fn pass_one(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
-    match (1..=inputs.count()).find(|&number| inputs.find(number).is_some()) {
-        Some(number) => send(outputs, number, inputs, number),
-        None => Ok(()),
+    if let Some(number) = (1..=inputs.count()).find(|&number| inputs.find(number).is_some()) {
+        pass(outputs, number, inputs, number);
     }
+    Ok(())
 }

@@ -1,19 +1,13 @@
 //! Commands taking effect.
 
-use std::collections::BTreeSet;
-
-use super::{ExecuteError, Machine, numbered_inputs};
+use super::{ExecuteError, Machine};
 use crate::intrinsic;
-use crate::language::{
-    Command, Definition, Disconnection, Initialization, Input, InputOf, Name, Node, Operation, OutputOf,
-    Payload,
-};
-use crate::names::{NameId, Thing};
-use crate::network::{Cause, ConnectError, Inlet, Outlet, Role, input_text};
-use crate::structure::{Body, BuildError, Change, NodeId, Structure, reaches};
-use crate::value::{Kinds, Value};
+use crate::language::{Command, Definition, Initialization, Name, Node, Payload};
+use crate::names::{Owner, Thing};
+use crate::network::Role;
+use crate::structure::{BuildError, Structure, reaches};
 
-type Done = Result<(), ExecuteError>;
+pub(super) type Done = Result<(), ExecuteError>;
 
 impl Machine {
     /// Lets one command take effect, then runs the network. A command that is refused changes nothing.
@@ -64,14 +58,14 @@ impl Machine {
         }
     }
 
-    fn unknown(&self, name: &Name) -> ExecuteError {
+    pub(super) fn unknown(&self, name: &Name) -> ExecuteError {
         ExecuteError::Unknown {
             name: name.clone(),
             alike: self.names.alike(name),
         }
     }
 
-    fn thing(&self, name: &Name) -> Result<Thing, ExecuteError> {
+    pub(super) fn thing(&self, name: &Name) -> Result<Thing, ExecuteError> {
         self.names.thing(name).ok_or_else(|| self.unknown(name))
     }
 
@@ -88,21 +82,19 @@ impl Machine {
     }
 
     /// Refuses names that commands may not give a new meaning.
-    fn free(&self, name: &Name) -> Done {
-        match self.names.find(name).map(|id| self.names.entry(id)) {
-            Some(entry) if entry.fixed => {
-                let is = entry.thing.map_or("reserved", |thing| self.what_is(thing));
-                Err(ExecuteError::Fixed {
-                    name: name.clone(),
-                    is,
-                })
-            }
-            Some(entry) if entry.label => Err(ExecuteError::Fixed {
-                name: name.clone(),
-                is: "a label inside a structure",
-            }),
-            _ => Ok(()),
-        }
+    pub(super) fn free(&self, name: &Name) -> Done {
+        let Some(entry) = self.names.find(name).map(|id| self.names.entry(id)) else {
+            return Ok(());
+        };
+        let is = match entry.owner {
+            Owner::Commands => return Ok(()),
+            Owner::Machine => entry.thing.map_or("reserved", |thing| self.what_is(thing)),
+            Owner::Structure => "a label inside a structure",
+        };
+        Err(ExecuteError::Fixed {
+            name: name.clone(),
+            is,
+        })
     }
 
     fn define_function(&mut self, name: &Name, function: &Name, size: Option<u16>) -> Done {
@@ -177,7 +169,7 @@ impl Machine {
         let taken = labelled.iter().find(|(full, _)| {
             self.names
                 .find(full)
-                .is_some_and(|entry| self.names.entry(entry).fixed)
+                .is_some_and(|entry| self.names.entry(entry).owner == Owner::Machine)
         });
         if contains_itself || taken.is_some() {
             self.structure.remove(id);
@@ -196,68 +188,10 @@ impl Machine {
     }
 
     /// Removes what a name denotes, with its members and connections, so that it can denote anew.
-    fn clear(&mut self, name: &Name) {
+    pub(super) fn clear(&mut self, name: &Name) {
         if let Some(id) = self.names.find(name) {
             self.delete_all(&[id]);
         }
-    }
-
-    fn delete(&mut self, name: &Name) -> Done {
-        self.free(name)?;
-        self.thing(name)?;
-        self.clear(name);
-        Ok(())
-    }
-
-    /// Deletes what entries denote, except devices and host parameters.
-    fn delete_all(&mut self, entries: &[NameId]) {
-        let mut instances = BTreeSet::new();
-        let mut nodes = BTreeSet::new();
-        for &entry in entries {
-            if self.names.entry(entry).fixed || self.names.entry(entry).label {
-                continue; // Labels go with their structure.
-            }
-            match self.names.entry(entry).thing {
-                Some(Thing::Instance(id)) => {
-                    instances.insert(id);
-                }
-                Some(Thing::Node(id)) => nodes.extend(self.structure.remove(id)),
-                _ => {}
-            }
-            self.names.clear(entry);
-        }
-        if !nodes.is_empty() {
-            self.drop_labels(&nodes);
-        }
-        self.network.remove(&instances, &nodes);
-    }
-
-    /// Labels of deleted structures denote nothing any more.
-    fn drop_labels(&mut self, gone: &BTreeSet<NodeId>) {
-        for entry in self.names.defined() {
-            if self.names.node(entry).is_some_and(|node| gone.contains(&node)) {
-                self.names.clear(entry);
-            }
-        }
-    }
-
-    fn forget(&mut self, name: &Name) -> Done {
-        self.free(name)?;
-        let thing = self.thing(name)?;
-        let Some(entry) = self.names.find(name) else {
-            return Ok(());
-        };
-        let kept = match thing {
-            Thing::Instance(id) => self.network.is_fed(id),
-            Thing::Node(_) | Thing::Sink(_) => {
-                self.names.entry(entry).referenced || self.displayed.contains(&entry)
-            }
-        };
-        if !kept {
-            self.delete_all(&[entry]);
-        }
-        self.names.forget(entry);
-        Ok(())
     }
 
     fn initialize(&mut self, what: Initialization) {
@@ -273,306 +207,9 @@ impl Machine {
             self.delete_all(&all);
         }
     }
-
-    fn outlet_of(&self, from: &OutputOf) -> Result<Outlet, ExecuteError> {
-        match self.thing(&from.name)? {
-            Thing::Instance(id) => self.network.outlet(id, from.output).ok_or_else(|| {
-                let has = self
-                    .network
-                    .instance(id)
-                    .map_or(0, |instance| instance.output_count());
-                ConnectError::NoOutput {
-                    name: from.name.clone(),
-                    output: from.output,
-                    has,
-                }
-                .into()
-            }),
-            other => {
-                let is = self.what_is(other);
-                Err(ExecuteError::NotA {
-                    name: from.name.clone(),
-                    is,
-                    wanted: "something that sends",
-                })
-            }
-        }
-    }
-
-    /// Where messages to an input go, and what it takes.
-    fn inlet_of(&self, name: &Name, input: Input) -> Result<(Inlet, Kinds), ExecuteError> {
-        let thing = self.thing(name)?;
-        let numbered = match input {
-            Input::Number(number) => u8::try_from(number).ok(),
-            _ => None,
-        };
-        let (found, has) = match thing {
-            Thing::Instance(to) => {
-                let kinds = numbered.and_then(|input| self.network.accepts(to, input));
-                let inlet = numbered.map(|input| Inlet::Function { to, input });
-                let count = self
-                    .network
-                    .instance(to)
-                    .map_or(0, |instance| instance.input_count());
-                (inlet.zip(kinds), numbered_inputs(count))
-            }
-            Thing::Sink(to) => {
-                let sink = self.network.sink(to);
-                let port = numbered.and_then(|n| sink?.inputs.get(usize::from(n).checked_sub(1)?));
-                let inlet = numbered.map(|input| Inlet::Sink { to, input });
-                let count = sink.map_or(0, |sink| sink.inputs.len());
-                (inlet.zip(port.map(|port| port.kinds)), numbered_inputs(count))
-            }
-            Thing::Node(to) => {
-                let kinds = self.structure.accepts(to, input);
-                (
-                    kinds.map(|kinds| (Inlet::Node { to, input }, kinds)),
-                    self.structure.inputs_text(to),
-                )
-            }
-        };
-        found.ok_or_else(|| {
-            ConnectError::NoInput {
-                name: name.clone(),
-                input: input_text(input),
-                has,
-            }
-            .into()
-        })
-    }
-
-    fn connect(&mut self, from: &OutputOf, to: &InputOf) -> Done {
-        let outlet = self.outlet_of(from)?;
-        let (inlet, accepted) = self.inlet_of(&to.name, to.input)?;
-        if !self.network.connect(outlet, inlet, accepted)? {
-            let other = format!("{}{}", input_text(to.input), to.name);
-            self.note(
-                &from.name,
-                &format!("output <{}>", from.output),
-                Cause::AlreadyConnected { to: other },
-            );
-        }
-        Ok(())
-    }
-
-    fn disconnect(&mut self, what: &Disconnection) -> Done {
-        match what {
-            Disconnection::Pair { from, to } => {
-                let outlet = self.outlet_of(from)?;
-                let (inlet, _) = self.inlet_of(&to.name, to.input)?;
-                if !self.network.disconnect(outlet, inlet)? {
-                    let what = format!(
-                        "{}<{}> is not connected to {}{}",
-                        from.name,
-                        from.output,
-                        input_text(to.input),
-                        to.name
-                    );
-                    return Err(ExecuteError::Nothing { what });
-                }
-            }
-            Disconnection::Output(from) => {
-                let outlet = self.outlet_of(from)?;
-                self.network.disconnect_output(outlet)?;
-            }
-            Disconnection::All(name) => match self.thing(name)? {
-                Thing::Instance(id) => self.network.disconnect_all(id),
-                other => {
-                    let is = self.what_is(other);
-                    let wanted = "something that sends";
-                    return Err(ExecuteError::NotA {
-                        name: name.clone(),
-                        is,
-                        wanted,
-                    });
-                }
-            },
-        }
-        Ok(())
-    }
-
-    fn variable(&self, name: &Name) -> Result<Value, ExecuteError> {
-        match self.thing(name)? {
-            Thing::Instance(id)
-                if self
-                    .network
-                    .instance(id)
-                    .is_some_and(|it| it.role == Role::Variable) =>
-            {
-                let held = self.network.held(id).cloned();
-                held.ok_or_else(|| ExecuteError::Empty { name: name.clone() })
-            }
-            other => {
-                let is = self.what_is(other);
-                Err(ExecuteError::NotA {
-                    name: name.clone(),
-                    is,
-                    wanted: "a variable",
-                })
-            }
-        }
-    }
-
-    pub(super) fn deliver(&mut self, name: &Name, input: Input, value: &Value) -> Done {
-        let (inlet, expected) = self.inlet_of(name, input)?;
-        let (name, input) = (name.clone(), input_text(input));
-        if !expected.has(value.kind()) {
-            return Err(ExecuteError::Kind {
-                name,
-                input,
-                expected,
-                got: value.kind(),
-            });
-        }
-        if !value.is_finite() {
-            return Err(ExecuteError::NotFinite { name, input });
-        }
-        super::with_network!(self, |network, around| network.deliver(inlet, value, around));
-        Ok(())
-    }
-
-    fn setup_cness(&mut self, constant: bool, input: &InputOf) -> Done {
-        match self.inlet_of(&input.name, input.input)?.0 {
-            Inlet::Function { to, input: number } => {
-                let role = self.network.instance(to).map(|instance| instance.role);
-                if role == Some(Role::Variable) {
-                    let (name, wanted) = (input.name.clone(), "a function instance");
-                    return Err(ExecuteError::NotA {
-                        name,
-                        is: "a variable",
-                        wanted,
-                    });
-                }
-                self.network.set_constant(to, number, constant);
-                Ok(())
-            }
-            _ => {
-                let is = self.what_is(self.thing(&input.name)?);
-                Err(ExecuteError::NotA {
-                    name: input.name.clone(),
-                    is,
-                    wanted: "a function instance",
-                })
-            }
-        }
-    }
-
-    fn node_named(&self, name: &Name) -> Result<NodeId, ExecuteError> {
-        match self.thing(name)? {
-            Thing::Node(id) => Ok(id),
-            other => {
-                let is = self.what_is(other);
-                Err(ExecuteError::NotA {
-                    name: name.clone(),
-                    is,
-                    wanted: "part of the display tree",
-                })
-            }
-        }
-    }
-
-    fn members(&mut self, instance: &Name) -> Result<&mut Vec<NameId>, ExecuteError> {
-        let id = self.node_named(instance)?;
-        let not = ExecuteError::NotA {
-            name: instance.clone(),
-            is: self.structure.what(id),
-            wanted: "an INSTANCE",
-        };
-        match self.structure.slot_mut(id).map(|slot| &mut slot.body) {
-            Some(Body::Instance(of)) => Ok(of),
-            _ => Err(not),
-        }
-    }
-
-    fn include(&mut self, member: &Name, instance: &Name) -> Done {
-        self.members(instance)?;
-        let entry = self.names.refer(member);
-        let around = self.names.refer(instance);
-        let below = self.names.node(entry);
-        if entry == around || below.is_some_and(|id| reaches(&self.structure, &self.names, id, around)) {
-            return Err(ExecuteError::Cycle {
-                name: instance.clone(),
-            });
-        }
-        let members = self.members(instance)?;
-        if !members.contains(&entry) {
-            members.push(entry);
-        }
-        Ok(())
-    }
-
-    fn remove_from(&mut self, member: &Name, instance: &Name) -> Done {
-        let entry = self.names.find(member).ok_or_else(|| self.unknown(member))?;
-        let members = self.members(instance)?;
-        match members.iter().position(|&id| id == entry) {
-            Some(at) => {
-                members.remove(at);
-                Ok(())
-            }
-            None => Err(ExecuteError::Nothing {
-                what: format!("{member} is not in {instance}"),
-            }),
-        }
-    }
-
-    fn show(&mut self, name: &Name) -> Done {
-        if self.names.thing(name).is_some() {
-            self.node_named(name)?;
-        }
-        let entry = self.names.refer(name);
-        if !self.displayed.contains(&entry) {
-            self.displayed.push(entry);
-            self.structure.revision += 1;
-        }
-        Ok(())
-    }
-
-    fn hide(&mut self, name: &Name) -> Done {
-        let entry = self.names.find(name).ok_or_else(|| self.unknown(name))?;
-        match self.displayed.iter().position(|&id| id == entry) {
-            Some(at) => {
-                self.displayed.remove(at);
-                self.structure.revision += 1;
-                Ok(())
-            }
-            None => Err(ExecuteError::Nothing {
-                what: format!("{name} is not displayed"),
-            }),
-        }
-    }
-
-    /// FOLLOW and PREFIX: both put an operation directly next to the node, so FOLLOW in front of what
-    /// followed before, PREFIX behind what was there.
-    fn insert(
-        &mut self,
-        name: &Name,
-        with: &Operation,
-        side: fn(&mut crate::structure::Slot) -> &mut Vec<Change>,
-        operation_only: bool,
-    ) -> Done {
-        let id = self.node_named(name)?;
-        let change = Change::new(with.clone()).map_err(|error| build_error(name, BuildError::from(error)))?;
-        let is = self.structure.what(id);
-        let Some(slot) = self.structure.slot_mut(id) else {
-            return Ok(());
-        };
-        if operation_only {
-            if !matches!(slot.body, Body::Operation { .. }) {
-                return Err(ExecuteError::NotA {
-                    name: name.clone(),
-                    is,
-                    wanted: "an operation",
-                });
-            }
-            side(slot).insert(0, change);
-        } else {
-            side(slot).push(change);
-        }
-        Ok(())
-    }
 }
 
-fn build_error(name: &Name, error: BuildError) -> ExecuteError {
+pub(super) fn build_error(name: &Name, error: BuildError) -> ExecuteError {
     let name = name.clone();
     match error {
         BuildError::NoView(why) => ExecuteError::NoView { name, why },

@@ -11,7 +11,10 @@ mod execute;
 mod load;
 mod panel;
 mod program;
+mod removal;
+mod tree;
 mod view;
+mod wires;
 
 pub use error::{DeclareError, ExecuteError};
 pub use panel::{LABEL_CHARACTERS, Panel};
@@ -173,7 +176,7 @@ impl Machine {
     pub fn emit_from(&mut self, from: Outlet, value: impl Into<Value>) {
         with_network!(self, |network, around| network.send_out(
             from,
-            value.into(),
+            &value.into(),
             around
         ));
     }

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use super::Machine;
 use crate::language::{Command, Definition, Input, InputOf, Name, OutputOf, Payload, print};
-use crate::names::Thing;
+use crate::names::{Owner, Thing};
 use crate::network::{Instance, InstanceId, Numbered, Role};
 use crate::structure::{Body, NodeId};
 use crate::value::Value;
@@ -31,7 +31,7 @@ impl Machine {
         let mut forgotten = Vec::new();
         for entry in self.names.defined() {
             let name = self.names.spelling(entry);
-            let is_label = self.names.entry(entry).label;
+            let is_label = self.names.entry(entry).owner == Owner::Structure;
             match self.names.entry(entry).thing {
                 Some(Thing::Instance(id)) => self.print_instance(id, &name, &mut program),
                 Some(Thing::Node(id)) if !is_label => self.print_node(id, &name, &mut program),

@@ -110,15 +110,12 @@ impl Network {
         }
         let instance = Instance::new(name, spec, size, role, self.made);
         self.made += 1;
-        let id = match self.vacant.pop() {
-            Some(index) => {
-                self.slots[index as usize] = Some(instance);
-                InstanceId(index)
-            }
-            None => {
-                self.slots.push(Some(instance));
-                InstanceId(self.slots.len() as u32 - 1)
-            }
+        let id = if let Some(index) = self.vacant.pop() {
+            self.slots[index as usize] = Some(instance);
+            InstanceId(index)
+        } else {
+            self.slots.push(Some(instance));
+            InstanceId(self.slots.len() as u32 - 1)
         };
         if matches!(spec.does, crate::intrinsic::Does::Clock(_)) {
             self.clocks.push(id);

@@ -103,16 +103,16 @@ impl Network {
         id: InstanceId,
         outside: &mut S,
         act: impl FnOnce(&mut super::Instance, &mut Outputs<'_>) -> Result<(), Fault>,
-        settle: fn(&mut Self, InstanceId, Result<(), Fault>),
+        settle: fn(&mut Self, InstanceId, &Result<(), Fault>),
     ) {
         let mut sent = std::mem::take(&mut self.sent);
         let mut errands = std::mem::take(&mut self.errands);
         if let Some(instance) = self.instance_mut(id) {
             let result = act(instance, &mut Outputs::new(&mut sent, &mut errands));
-            settle(self, id, result);
+            settle(self, id, &result);
         }
         for (output, value) in sent.drain(..) {
-            self.send_out(Outlet { from: id, output }, value, outside);
+            self.send_out(Outlet { from: id, output }, &value, outside);
         }
         for errand in errands.drain(..) {
             self.run_errand(id, errand, outside);
@@ -121,18 +121,18 @@ impl Network {
         self.errands = errands;
     }
 
-    fn note_fault(&mut self, id: InstanceId, result: Result<(), Fault>) {
-        if let Err(Fault::Domain { why }) = result {
+    fn note_fault(&mut self, id: InstanceId, result: &Result<(), Fault>) {
+        if let Err(Fault::Domain { why }) = *result {
             self.report(id, Cause::Domain { why });
         }
     }
 
-    fn consume(&mut self, id: InstanceId, result: Result<(), Fault>) {
+    fn consume(&mut self, id: InstanceId, result: &Result<(), Fault>) {
         let Some(instance) = self.slots.get_mut(id.0 as usize).and_then(Option::as_mut) else {
             return;
         };
         let mut cause = None;
-        let taken = match result {
+        let taken = match *result {
             Ok(()) => instance.consume(),
             Err(Fault::Domain { why }) => {
                 cause = Some(Cause::Domain { why });
@@ -170,7 +170,7 @@ impl Network {
     }
 
     /// Sends on an output: to every destination in the order of CONNECT.
-    pub(crate) fn send_out(&mut self, from: Outlet, value: Value, outside: &mut impl Surroundings) {
+    pub(crate) fn send_out(&mut self, from: Outlet, value: &Value, outside: &mut impl Surroundings) {
         if !value.is_finite() {
             self.report(from.from, Cause::NotFinite);
             return;
@@ -197,7 +197,7 @@ impl Network {
         }
         let to = std::mem::take(&mut output.to);
         for &inlet in &to {
-            self.deliver(inlet, &value, outside);
+            self.deliver(inlet, value, outside);
         }
         // Delivering only queues: nothing ran that could have changed the connections.
         if let Some(output) = self
@@ -309,7 +309,7 @@ impl Network {
             },
             Errand::Fetch { name, output } => {
                 match outside.variable(&name).and_then(|id| self.held(id)).cloned() {
-                    Some(value) => self.send_out(Outlet { from, output }, value, outside),
+                    Some(value) => self.send_out(Outlet { from, output }, &value, outside),
                     None => self.report(
                         from,
                         Cause::Unknown {

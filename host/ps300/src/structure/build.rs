@@ -6,7 +6,7 @@ use crate::language::{Member, Name, Node, Operation};
 use crate::names::Names;
 
 /// Why a node could not be made.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum BuildError {
     NoView(&'static str),
     Depth,

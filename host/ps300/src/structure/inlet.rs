@@ -22,14 +22,12 @@ impl Structure {
                 let inputs = effect::accepts(&change.operation);
                 inputs.get(usize::from(number).checked_sub(1)?).copied()
             }
-            (Body::Vectors(_), Input::Append | Input::Last | Input::Position) => Some(POINT),
-            (Body::Vectors(_), Input::Number(1..)) => Some(POINT),
+            (Body::Vectors(_), Input::Append | Input::Last | Input::Number(1..))
+            | (Body::Vectors(_) | Body::Characters(_), Input::Position) => Some(POINT),
             (Body::Vectors(_) | Body::Characters(_), Input::Delete) => Some(Kinds::INTEGER),
             (Body::Vectors(_) | Body::Characters(_), Input::Clear) => Some(Kinds::ANY),
-            (Body::Characters(_), Input::Append | Input::Last) => Some(Kinds::STRING),
-            (Body::Characters(_), Input::Position) => Some(POINT),
+            (Body::Characters(_), Input::Append | Input::Last | Input::Number(1..)) => Some(Kinds::STRING),
             (Body::Characters(_), Input::Step) => Some(Kind::Vector2.into()),
-            (Body::Characters(_), Input::Number(1..)) => Some(Kinds::STRING),
             _ => None,
         }
     }

@@ -108,15 +108,12 @@ impl Structure {
             above: Vec::new(),
             below: Vec::new(),
         });
-        match self.vacant.pop() {
-            Some(index) => {
-                self.slots[index as usize] = slot;
-                NodeId(index)
-            }
-            None => {
-                self.slots.push(slot);
-                NodeId(self.slots.len() as u32 - 1)
-            }
+        if let Some(index) = self.vacant.pop() {
+            self.slots[index as usize] = slot;
+            NodeId(index)
+        } else {
+            self.slots.push(slot);
+            NodeId(self.slots.len() as u32 - 1)
         }
     }
 

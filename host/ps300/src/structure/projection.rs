@@ -73,7 +73,7 @@ pub(crate) fn parallel(x: [f64; 2], y: [f64; 2], depth: Option<[f64; 2]>) -> Res
 /// Scale and offset that take `a`..`b` to `low`..1.
 fn onto([a, b]: [f64; 2], low: f64) -> Option<(f64, f64)> {
     let scale = (1.0 - low) / (b - a);
-    scale.is_finite().then(|| (scale, low - a * scale))
+    scale.is_finite().then_some((scale, low - a * scale))
 }
 
 #[cfg(test)]
