@@ -91,15 +91,26 @@ struct Aside {
     before: Option<String>,
 }
 
-/// Puts all files in place or none. Files whose text is unchanged are left alone; `files` are renamed in
-/// the order given. After an error the folder is as it was, unless undoing failed as well; even then every
+/// What to do with files that hold the right text already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unchanged {
+    /// Leave them alone.
+    Keep,
+    /// Write them again, so that their times say when.
+    Rewrite,
+}
+
+/// Puts all files in place or none; `files` are renamed in the order given. After an error the folder is as it was, unless undoing failed as well; even then every
 /// file is whole, old or new.
-pub(super) fn put_all(disk: &mut dyn Disk, files: Vec<NewFile>) -> Result<(), FileError> {
-    let changed = files
-        .into_iter()
-        .filter(|file| fs::read(&file.path).ok().as_deref() != Some(file.text.as_bytes()));
+pub(super) fn put_all(
+    disk: &mut dyn Disk,
+    files: Vec<NewFile>,
+    unchanged: Unchanged,
+) -> Result<(), FileError> {
+    let differs = |file: &NewFile| fs::read(&file.path).ok().as_deref() != Some(file.text.as_bytes());
+    let wanted = |file: &NewFile| unchanged == Unchanged::Rewrite || differs(file);
     let mut aside = Vec::new();
-    for file in changed.collect::<Vec<_>>() {
+    for file in files.into_iter().filter(wanted) {
         match write_one(disk, &file) {
             Ok(written) => aside.push(written),
             Err(error) => {
@@ -159,11 +170,9 @@ fn restore(disk: &mut dyn Disk, replaced: &[Aside]) {
 
 /// Puts one file in place, whole or not at all.
 pub(super) fn put(path: &Path, text: String) -> Result<(), FileError> {
-    put_all(
-        &mut RealDisk,
-        vec![NewFile {
-            path: path.to_path_buf(),
-            text,
-        }],
-    )
+    let file = NewFile {
+        path: path.to_path_buf(),
+        text,
+    };
+    put_all(&mut RealDisk, vec![file], Unchanged::Keep)
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::bvh;
 use super::clip_file;
-use super::disk::{Disk, NewFile, RealDisk, put_all};
+use super::disk::{Disk, NewFile, RealDisk, Unchanged, put_all};
 use super::fault::{FileError, FileErrors};
 use super::show::{Show, is_file_name};
 use super::show_file;
@@ -24,7 +24,7 @@ pub fn save(show: &Show, folder: &Path) -> Result<(), FileErrors> {
 
 /// The same through a given [`Disk`].
 pub fn save_through(disk: &mut dyn Disk, show: &Show, folder: &Path) -> Result<(), FileErrors> {
-    put_all(disk, files(show, folder)?)?;
+    put_all(disk, files(show, folder)?, Unchanged::Keep)?;
     // The show is safe now. An autosave that cannot be removed is older than it and is not offered again.
     let _ = fs::remove_dir_all(folder.join(AUTOSAVE));
     Ok(())
@@ -34,13 +34,8 @@ pub fn save_through(disk: &mut dyn Disk, show: &Show, folder: &Path) -> Result<(
 /// if the show is never saved.
 pub fn autosave(show: &Show, folder: &Path) -> Result<(), FileErrors> {
     let kept = folder.join(AUTOSAVE);
-    let files = files(show, &kept)?;
-    // Rewritten always, and last: its time says when the autosave was made.
-    let show_file = kept.join(show_file::FILE);
-    if show_file.exists() {
-        fs::remove_file(&show_file).map_err(|error| cannot(&show_file, "remove", &error))?;
-    }
-    put_all(&mut RealDisk, files)?;
+    // The time of its `show.toml`, which comes last, says when the autosave was made.
+    put_all(&mut RealDisk, files(show, &kept)?, Unchanged::Rewrite)?;
     Ok(())
 }
 

@@ -220,3 +220,54 @@ pub(super) fn word(name: &str) -> String {
 fn real(value: f64) -> String {
     format!("{:?}", value + 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn figure(text: &str) -> (Option<Figure>, Findings) {
+        let mut found = Findings::default();
+        let figure = read(&Source::from_text(Path::new("a.str"), text), &mut found);
+        (figure, found)
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let text = "a bird\r\n7 body 3 0.5\r\n  3 0.1 -0.2 1e-3\r\n  4 0 0 .5\r\n\r\n3 wing 2 1.25\n\n\n4 beak 2 0.05\n";
+        let (bird, found) = figure(text);
+        assert_eq!(found, Findings::default());
+        let written = write(bird.as_ref().expect("a bird"), "a\nbird");
+        assert!(
+            written.starts_with("a bird\n7 body 3 0.5\n    3 0.1 -0.2 0.001\n"),
+            "{written}"
+        );
+        assert_eq!(figure(&written).0, bird);
+    }
+
+    #[test]
+    fn blank_lines_between_links_may_be_missing() {
+        let (chain, _) = figure("c\n0 a 2 1\n 1 0 0 1\n1 b 2 1\n 2 0 0 1\n2 c 2 1");
+        assert_eq!(chain.map(|figure| figure.len()), Some(3));
+    }
+
+    #[test]
+    fn all_faults_are_found_with_their_places() {
+        let (_, found) = figure("c\n0 a 2\n  x 0 0 1\n  1 0 nan 1\n\n1 b two -1\n");
+        let places: Vec<(u32, u32)> = found.errors.iter().map(|e| (e.line, e.column)).collect();
+        assert_eq!(places, [(2, 5), (3, 3), (4, 7), (6, 5)], "{:#?}", found.errors);
+        let table = [
+            ("c\n", 1, "exactly one root"),
+            ("c\n0 a 2 1\n 0 0 0 1\n", 1, "loops"),
+            ("c\n0 a 2 0\n", 2, "above zero"),
+            ("c\n0 a 2 1\n\n0 b 2 1\n", 4, "the number 0"),
+            ("c\n0 a 2 1\n 5 0 0 1\n", 3, "link 5"),
+        ];
+        for (text, line, words) in table {
+            let (_, found) = figure(text);
+            let error = found.errors.first().expect(words);
+            assert!(error.line == line && error.message.contains(words), "{error}");
+        }
+    }
+}
