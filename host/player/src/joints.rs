@@ -93,14 +93,14 @@ impl Line {
 /// All lines of a puppet.
 #[derive(Debug)]
 pub(crate) struct Lines {
-    pub(crate) lines: Vec<Line>,
+    pub(crate) all: Vec<Line>,
     seats: Vec<Seat>,
     pub(crate) limits: Vec<Limits>,
 }
 
 impl Lines {
     pub(crate) fn new(buses: Vec<Bus>, puppet: &Puppet) -> Self {
-        let lines = buses
+        let all = buses
             .into_iter()
             .enumerate()
             .map(|(at, bus)| Line::new(at, bus, puppet))
@@ -117,7 +117,7 @@ impl Lines {
             .filter_map(members)
             .map(device::servo::Member::limits)
             .collect();
-        Self { lines, seats, limits }
+        Self { all, seats, limits }
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -127,7 +127,7 @@ impl Lines {
     /// The bus of a joint and its place there.
     pub(crate) fn seat(&self, joint: usize) -> Option<(&Bus, usize)> {
         let seat = self.seats.get(joint)?;
-        Some((&self.lines.get(seat.bus)?.bus, seat.member))
+        Some((&self.all.get(seat.bus)?.bus, seat.member))
     }
 
     pub(crate) fn reading(&self, joint: usize) -> Option<Reading> {
@@ -144,7 +144,7 @@ impl Lines {
         let Some(seat) = self.seats.get(joint) else {
             return JointReport::default();
         };
-        let Some(line) = self.lines.get(seat.bus) else {
+        let Some(line) = self.all.get(seat.bus) else {
             return JointReport::default();
         };
         let reading = line.bus.reading(seat.member);
@@ -171,22 +171,22 @@ impl Lines {
     }
 
     pub(crate) fn all_armed(&self) -> bool {
-        self.lines.iter().all(Line::is_armed)
+        self.all.iter().all(Line::is_armed)
     }
 
     pub(crate) fn all_loose(&self) -> bool {
-        self.lines.iter().all(Line::is_loose)
+        self.all.iter().all(Line::is_loose)
     }
 
     /// Whether every goal that could still move stands.
     pub(crate) fn all_still(&self) -> bool {
-        self.lines
+        self.all
             .iter()
             .all(|line| !line.is_armed() || line.bus.is_still())
     }
 
     pub(crate) fn release_all(&mut self, now: Instant) {
-        for line in &mut self.lines {
+        for line in &mut self.all {
             line.release(now);
         }
     }

@@ -132,18 +132,18 @@ impl Player {
 
     /// Its buses, in the puppet's order.
     pub fn buses(&self) -> impl Iterator<Item = &Bus> {
-        self.lines.lines.iter().map(|line| &line.bus)
+        self.lines.all.iter().map(|line| &line.bus)
     }
 
     /// Why arming was refused last, or which servos kept their torque: servo by servo, with the remedy.
     pub fn refusals(&self) -> impl Iterator<Item = &Refusal> {
-        self.lines.lines.iter().flat_map(|line| line.bus.refusals())
+        self.lines.all.iter().flat_map(|line| line.bus.refusals())
     }
 
     /// Puts one bus on a new line, as after a cable was plugged in again. Only while faulted or released;
     /// the servos must be armed anew and start from where they are measured.
     pub fn reconnect(&mut self, bus: &str, transport: Box<dyn Transport>) -> Result<(), PuppetError> {
-        if let Some(line) = self.lines.lines.iter_mut().find(|line| line.bus.name() == bus) {
+        if let Some(line) = self.lines.all.iter_mut().find(|line| line.bus.name() == bus) {
             line.bus.reconnect(transport)?;
             line.lost = false;
             // A servo that kept its torque through the gap must not keep it unseen.
@@ -154,7 +154,7 @@ impl Player {
 
     /// Gives the buses back, for maintenance. Torque is as it is: release first.
     pub fn into_buses(self) -> Vec<Bus> {
-        self.lines.lines.into_iter().map(|line| line.bus).collect()
+        self.lines.all.into_iter().map(|line| line.bus).collect()
     }
 
     /// One period: takes in answers, follows orders, judges, and sends goals. Does not wait, and does not
@@ -178,8 +178,8 @@ impl Player {
     /// waits.
     pub fn poll(&mut self, now: Instant) {
         let mut events = std::mem::take(&mut self.events);
-        for at in 0..self.lines.lines.len() {
-            let Some(line) = self.lines.lines.get_mut(at) else {
+        for at in 0..self.lines.all.len() {
+            let Some(line) = self.lines.all.get_mut(at) else {
                 continue;
             };
             let failed = line.poll(now, &mut |event| {
@@ -201,7 +201,7 @@ impl Player {
     pub(crate) fn wait(&mut self, clock: &dyn device::Clock, until: Instant) {
         // One transport can be waited for at a time: short turns bound what the others lose.
         let turn = Duration::from_millis(1);
-        for line in &mut self.lines.lines {
+        for line in &mut self.lines.all {
             if line.lost {
                 continue;
             }
@@ -211,13 +211,13 @@ impl Player {
                 return;
             }
         }
-        if self.lines.lines.iter().all(|line| line.lost) {
+        if self.lines.all.iter().all(|line| line.lost) {
             clock.sleep_until(until.min(clock.now().after(turn)));
         }
     }
 
     fn lose(&mut self, at: usize, why: String, now: Instant) {
-        if let Some(line) = self.lines.lines.get_mut(at) {
+        if let Some(line) = self.lines.all.get_mut(at) {
             line.lost = true;
             let bus = line.bus.name().to_owned();
             self.fault(Fault::BusLost { bus, why }, now);
@@ -252,7 +252,7 @@ impl Player {
         }
         let first = self
             .lines
-            .lines
+            .all
             .get(at)
             .and_then(|line| line.bus.refusals().first());
         let why = first.map(ToString::to_string).unwrap_or_default();
@@ -269,7 +269,7 @@ impl Player {
     }
 
     pub(crate) fn place(&self, at: usize, member: usize) -> Option<Place> {
-        let bus = &self.lines.lines.get(at)?.bus;
+        let bus = &self.lines.all.get(at)?.bus;
         let seated = bus.member(member)?;
         Some(Place {
             bus: bus.name().to_owned(),
@@ -306,7 +306,7 @@ impl Player {
         self.heard_operator = now;
         let verb = order.verb();
         let fits = match (&order, &self.state) {
-            (Order::Alive, _) => Ok(()),
+            (Order::Alive, _) | (Order::Release, State::Released) => Ok(()),
             (Order::Stop, _) => {
                 self.fault(Fault::StopPressed, now);
                 Ok(())
@@ -328,7 +328,6 @@ impl Player {
                 Ok(())
             }
             (Order::Arm, _) => Err("release first, and wait until that is done"),
-            (Order::Release, State::Released) => Ok(()),
             (Order::Release, State::Arming) => {
                 self.lines.release_all(now);
                 self.state = State::Released;
@@ -372,8 +371,8 @@ impl Player {
         self.state = State::Arming;
         self.stopping = None;
         self.strained_since.fill(None);
-        for at in 0..self.lines.lines.len() {
-            let Some(line) = self.lines.lines.get_mut(at) else {
+        for at in 0..self.lines.all.len() {
+            let Some(line) = self.lines.all.get_mut(at) else {
                 continue;
             };
             line.lost = false;
@@ -397,9 +396,9 @@ impl Player {
         let posed = self.stance == Stance::Pose
             && self.stopping.is_none()
             && matches!(self.state, State::Holding | State::Playing);
-        self.report.goals_sent = !self.lines.lines.is_empty();
-        for at in 0..self.lines.lines.len() {
-            let Some(line) = self.lines.lines.get_mut(at) else {
+        self.report.goals_sent = !self.lines.all.is_empty();
+        for at in 0..self.lines.all.len() {
+            let Some(line) = self.lines.all.get_mut(at) else {
                 continue;
             };
             if line.release_due {
@@ -435,7 +434,7 @@ impl Player {
         report.torque = !lines.all_loose();
         report.stale_discarded = 0;
         report.timeouts = 0;
-        for line in &lines.lines {
+        for line in &lines.all {
             let counters = line.bus.counters();
             report.stale_discarded = report.stale_discarded.saturating_add(counters.stale);
             report.timeouts = report.timeouts.saturating_add(counters.timeouts);
@@ -466,7 +465,7 @@ impl Player {
 
     /// Waits until the joints stand, then ends as wished.
     fn stop_further(&mut self, stopping: Stopping, now: Instant) {
-        for line in &mut self.lines.lines {
+        for line in &mut self.lines.all {
             // What is not pinned yet does not move: it can be switched off at once.
             if line.bus.armed() == Armed::Arming {
                 line.release(now);
@@ -476,7 +475,7 @@ impl Player {
         if stopping.ending == Ending::Hold || !(self.lines.all_still() || waited_enough) {
             return;
         }
-        for line in &mut self.lines.lines {
+        for line in &mut self.lines.all {
             if matches!(line.bus.armed(), Armed::Yes | Armed::Arming) {
                 line.release(now);
             }

@@ -53,7 +53,7 @@ impl Player {
 
     /// Blames the member that is certainly absent; else the one not heard for the longest time.
     fn find_silence(&self, now: Instant) -> Option<Fault> {
-        for (at, line) in self.lines.lines.iter().enumerate() {
+        for (at, line) in self.lines.all.iter().enumerate() {
             if line.bus.armed() != Armed::Yes {
                 continue;
             }
@@ -93,7 +93,7 @@ impl Player {
                 let (bus, member) = self.lines.seat(joint)?;
                 let at = self
                     .lines
-                    .lines
+                    .all
                     .iter()
                     .position(|line| line.bus.name() == bus.name())?;
                 return Some(Fault::Strained {

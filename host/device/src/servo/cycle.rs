@@ -73,6 +73,8 @@ pub(super) struct Cycle {
     item: Item,
     urgent: bool,
     since_probe: u32,
+    /// What was found out while goals were sent; told at the next poll.
+    pending: Vec<BusEvent>,
     /// Confirmations so far that a member has lost torque, or tripped.
     lost: Vec<[u8; 2]>,
 }
@@ -89,6 +91,7 @@ impl Cycle {
             item: Item::Errors,
             urgent: false,
             since_probe: 0,
+            pending: Vec::with_capacity(members),
             lost: vec![[0; 2]; members],
         }
     }
@@ -171,6 +174,7 @@ impl Bus {
 
     /// Takes in what has arrived and carries on what is under way. Never waits.
     pub fn poll(&mut self, now: Instant, emit: &mut dyn FnMut(BusEvent)) -> Result<(), BusError> {
+        self.cycle.pending.drain(..).for_each(&mut *emit);
         match self.mode {
             Mode::Arming(_) => self.poll_arming(now, emit),
             Mode::Releasing(_) => self.poll_releasing(now, emit),
@@ -343,14 +347,13 @@ impl Bus {
                     return;
                 }
                 match asked {
-                    Some(Asked::Status) => match slot.take_status(table, member, &answer, now) {
-                        Some(event) => {
+                    Some(Asked::Status) => {
+                        if let Some(event) = slot.take_status(table, member, &answer, now) {
                             counters.stale += u64::from(matches!(event, BusEvent::Stale { .. }));
                             counters.implausible += u64::from(matches!(event, BusEvent::Implausible { .. }));
                             emit(event);
                         }
-                        None => {}
-                    },
+                    }
                     Some(Asked::Health(item)) => {
                         let confirmed = lost.get_mut(member);
                         let event = slot.take_health(table, member, item, &answer, confirmed, settings.hot_c);
@@ -391,7 +394,15 @@ impl Bus {
 
     /// Closes an exchange of which nothing more is expected.
     fn settle(&mut self) {
-        self.settle_and_tell(&mut |_| {});
+        let mut pending = std::mem::take(&mut self.cycle.pending);
+        let room = pending.capacity();
+        self.settle_and_tell(&mut |event| {
+            // Whoever never polls is not told everything.
+            if pending.len() < room {
+                pending.push(event);
+            }
+        });
+        self.cycle.pending = pending;
     }
 
     fn settle_and_tell(&mut self, emit: &mut dyn FnMut(BusEvent)) {

@@ -131,10 +131,8 @@ enum Front {
 impl Decoder {
     /// For packets of up to 1024 bytes.
     pub fn new() -> Self {
-        let mut waiting = Vec::new();
-        waiting.reserve(LENGTH_MAX_DEFAULT);
         Self {
-            waiting,
+            waiting: Vec::with_capacity(LENGTH_MAX_DEFAULT),
             params: Vec::with_capacity(LENGTH_MAX_DEFAULT),
             length_max: LENGTH_MAX_DEFAULT,
             counters: DecoderCounters::default(),
