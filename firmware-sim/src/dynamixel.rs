@@ -2,8 +2,8 @@
 //!
 //! `bus` orders what happens on the wire and hands instructions to servos; `wire` carries bytes at their
 //! pace; `receiver` finds packets; `packet` and `crc` are the framing; `servo` is one servo, made of its
-//! `table`, its `trajectory` and its `plant`; `execute` is what an instruction does to it; `fault` is what
-//! may go wrong. Source: `docs/protocols/dynamixel-2.md` (the maker's protocol page and control tables).
+//! `table`, its `motion` along a `trajectory`, its `plant` and the protection of its `hardware`; `execute` and
+//! `write` are what an instruction does to it; `fault` is what may go wrong. Source: `docs/protocols/dynamixel-2.md` (the maker's protocol page and control tables).
 
 mod bus;
 mod chain;
@@ -12,6 +12,8 @@ mod dispatch;
 mod execute;
 mod fault;
 mod fault_run;
+mod hardware;
+mod motion;
 mod packet;
 mod plant;
 mod receiver;
@@ -19,14 +21,17 @@ mod refresh;
 mod servo;
 mod table;
 mod trajectory;
+mod unit;
 mod wire;
+mod witness;
 mod write;
 
 pub use bus::{AddError, BusOptions, ServoBus, StatusSent};
 pub use chain::Absent;
 pub use fault::{Fault, FaultError, FaultKind};
-pub use receiver::BadCrc;
-pub use servo::{Counters, Gaps, Sag, Servo, Unit};
+pub use receiver::{BadCrc, InnerHeader};
+pub use servo::Servo;
+pub use unit::{Counters, Gaps, Sag, Unit};
 pub use wire::{Adapter, WireTime};
 
 #[cfg(test)]

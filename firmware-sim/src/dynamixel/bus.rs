@@ -7,8 +7,9 @@ use super::chain::{Absent, Chain};
 use super::fault::{Fault, FaultKind};
 use super::fault_run::Running;
 use super::packet::ID_MAX;
-use super::receiver::{BadCrc, Receiver};
-use super::servo::{Sag, Servo, Unit};
+use super::receiver::{BadCrc, InnerHeader, Receiver};
+use super::servo::Servo;
+use super::unit::{Sag, Unit};
 use super::wire::{Adapter, Wire, WireTime};
 use crate::firmware::Firmware;
 use device_profiles::ServoProfile;
@@ -34,6 +35,8 @@ pub struct BusOptions {
     pub absent: Absent,
     /// What a servo does with a packet whose checksum is wrong.
     pub bad_crc: BadCrc,
+    /// What a servo makes of a header inside a packet.
+    pub inner_header: InnerHeader,
     /// Decides which answers and bytes the faults hit.
     pub seed: u64,
 }
@@ -48,6 +51,7 @@ impl Default for BusOptions {
             adapter: None,
             absent: Absent::default(),
             bad_crc: BadCrc::default(),
+            inner_header: InnerHeader::default(),
             seed: 0,
         }
     }
@@ -111,9 +115,9 @@ impl ServoBus {
         Self {
             wire: Wire::new(byte_ns(options.wire, options.baud), options.adapter),
             random: fastrand::Rng::with_seed(options.seed),
+            receiver: Receiver::new(options.inner_header),
             options,
             servos: Vec::new(),
-            receiver: Receiver::default(),
             chain: Chain::default(),
             faults: Vec::new(),
             answer_params: Vec::new(),
@@ -230,6 +234,8 @@ impl ServoBus {
             self.reached_ns = self.reached_ns.max(at_ns);
             if self.next_fault_ns().is_some_and(|due| due <= at_ns) {
                 self.change_faults(at_ns);
+            } else if self.chain.next_ns().is_some_and(|due| due <= at_ns) {
+                self.step_chain();
             } else if let Some(byte) = self.wire.arrival(at_ns) {
                 let start_ns = if self.options.wire == WireTime::Real {
                     byte.start_ns
@@ -241,8 +247,6 @@ impl ServoBus {
                     self.dispatch(byte.end_ns, heard);
                     self.receiver.clear();
                 }
-            } else {
-                self.step_chain();
             }
         }
         self.reached_ns = self.reached_ns.max(to_ns);

@@ -2,7 +2,7 @@
 
 use super::bus::ServoBus;
 use super::fault::{Fault, FaultKind};
-use super::servo::Supply;
+use super::hardware::Supply;
 
 /// Parts in a whole for the shares of faults.
 const MILLION: u32 = 1_000_000;

@@ -24,6 +24,16 @@ pub enum BadCrc {
     Answer,
 }
 
+/// What a servo makes of an unstuffed header inside a packet; hosts that do not stuff send them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InnerHeader {
+    /// Data like any other: the length rules.
+    #[default]
+    Data,
+    /// The start of a new packet.
+    Restart,
+}
+
 /// A packet just completed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Heard {
@@ -39,11 +49,19 @@ pub(super) struct Receiver {
     packet: Vec<u8>,
     params_end: usize,
     last_ns: Option<u64>,
+    inner_header: InnerHeader,
     /// Packets dropped: by a gap, a length no servo can take, or a wrong checksum.
     pub(super) dropped: u64,
 }
 
 impl Receiver {
+    pub(super) fn new(inner_header: InnerHeader) -> Self {
+        Self {
+            inner_header,
+            ..Self::default()
+        }
+    }
+
     /// Takes the byte that began at `start_ns` and was complete at `end_ns`.
     pub(super) fn push(&mut self, start_ns: u64, end_ns: u64, byte: u8) -> Option<Heard> {
         let late = self
@@ -60,6 +78,12 @@ impl Receiver {
         }
         self.packet.push(byte);
         if self.packet.len() < PREFIX {
+            return None;
+        }
+        let restarts = self.inner_header == InnerHeader::Restart;
+        if restarts && self.packet.len() > PREFIX + HEADER.len() && self.packet.ends_with(&HEADER) {
+            self.dropped += 1;
+            self.packet.truncate(HEADER.len());
             return None;
         }
         let counted = usize::from(u16::from_le_bytes([self.packet[5], self.packet[6]]));

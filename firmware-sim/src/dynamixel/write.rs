@@ -4,9 +4,11 @@
 //! several apply is not documented; here bytes are judged in the order of their addresses: access, then
 //! length, then value.
 
+use super::motion::mode;
 use super::packet::error;
-use super::servo::{Gaps, Servo, mode};
+use super::servo::Servo;
 use super::table::{Reg, Table, load};
+use super::unit::Gaps;
 use device_profiles::{Area, Register};
 
 /// Largest Goal Position in the modes of several turns.

@@ -127,7 +127,7 @@ fn puck(words: &mut Words<'_>) -> Result<Touch, LineFault> {
         let column = words.column();
         match words.any("more")? {
             "button" => puck.buttons |= 1 << (words.whole("a puck button", 1, 4)? - 1),
-            "wheel" => puck.wheel = words.number("wheel clicks", -1000.0, 1000.0)? as i32,
+            "wheel" => puck.wheel = words.clicks()?,
             other => {
                 return Err(fault(
                     column,
@@ -236,6 +236,21 @@ impl<'a> Words<'a> {
             .ok()
             .filter(|value| (min..=max).contains(value));
         value.ok_or_else(|| fault(column, format!("expected {what}, {min} to {max}, found `{word}`")))
+    }
+
+    fn clicks(&mut self) -> Result<i32, LineFault> {
+        let column = self.column();
+        let word = self.any("wheel clicks")?;
+        let value = word
+            .parse::<i32>()
+            .ok()
+            .filter(|clicks| clicks.unsigned_abs() <= 1000);
+        value.ok_or_else(|| {
+            fault(
+                column,
+                format!("expected whole wheel clicks such as -2, found `{word}`"),
+            )
+        })
     }
 
     fn end(&self) -> Result<(), LineFault> {

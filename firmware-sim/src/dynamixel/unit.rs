@@ -1,0 +1,94 @@
+//! What is said about one copy of a servo when it is put on the bus, and what is counted of its life.
+
+/// What a read of bytes that no register covers gives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gaps {
+    /// Zeros: hosts do read across gaps in practice.
+    #[default]
+    Zeros,
+    /// Error 7, as the word "undefined" in the maker's table of errors may be read.
+    AccessError,
+}
+
+/// How this copy of a servo differs from the next.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    /// Number on the bus, 0 to 252.
+    pub id: u8,
+    /// Line speed in baud; none: the bus's own.
+    pub baud: Option<u32>,
+    /// Firmware version; none: the profile's.
+    pub firmware: Option<u8>,
+    /// Where the shaft is, radians from the middle of the position range.
+    pub start_rad: f64,
+    /// Return Delay Time in microseconds; none: the factory's 500.
+    pub return_delay_us: Option<u32>,
+    /// Time from hearing an instruction to being able to answer, beside Return Delay Time. Real ones take
+    /// 20 to 50 us; 0 makes the wire the only limit.
+    pub turnaround_us: u32,
+    /// The servo's clock is this many millionths fast.
+    pub drift_ppm: i32,
+    /// Supply in volts; none: in the middle of what the model allows.
+    pub supply_volts: Option<f64>,
+    /// What reads of undefined bytes give.
+    pub gaps: Gaps,
+}
+
+impl Unit {
+    /// An ideal copy with number `id`, at the bus's speed.
+    pub fn new(id: u8) -> Self {
+        Self {
+            id,
+            baud: None,
+            firmware: None,
+            start_rad: 0.0,
+            return_delay_us: None,
+            turnaround_us: 0,
+            drift_ppm: 0,
+            supply_volts: None,
+            gaps: Gaps::default(),
+        }
+    }
+
+    /// As it comes out of its box: number 1 at 57600 baud.
+    pub fn factory() -> Self {
+        Self {
+            baud: Some(57_600),
+            ..Self::new(1)
+        }
+    }
+}
+
+/// Gravity on a horn without torque: it sinks at a speed until it hangs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sag {
+    /// Where it hangs, radians from the middle of the position range.
+    pub to_rad: f64,
+    /// How fast it gets there.
+    pub rad_per_s: f64,
+}
+
+/// What has happened to a servo since it was made.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counters {
+    /// Instructions for this servo, alone or among others.
+    pub instructions: u64,
+    /// Goal registers written.
+    pub goal_writes: u64,
+    /// Writes refused with an error.
+    pub refused_writes: u64,
+    /// Bytes written to EEPROM registers that changed their value.
+    pub eeprom_changes: u64,
+    /// Times torque went from off to on.
+    pub torque_ons: u64,
+    /// Times the servo switched its own torque off.
+    pub shutdowns: u64,
+    /// Times Bus Watchdog ran out.
+    pub watchdog_trips: u64,
+    /// Reboots, by instruction or by power.
+    pub reboots: u64,
+    /// Highest true speed while torque was on, radians per second.
+    pub speed_max_rad_per_s: f64,
+    /// Highest true acceleration while torque was on, radians per second squared, over one plant step.
+    pub acceleration_max_rad_per_s2: f64,
+}

@@ -1,0 +1,73 @@
+//! What a test may know of a servo that no byte on the wire tells.
+
+use super::servo::Servo;
+use super::table::Reg;
+use super::unit::Counters;
+
+impl Servo {
+    /// Its number now.
+    pub fn id(&self) -> u8 {
+        self.table.get(Reg::Id) as u8
+    }
+
+    /// Where the shaft is, radians from the middle of the position range, whatever the registers say.
+    pub fn true_position_rad(&self) -> f64 {
+        (self.plant.position - self.facts.centre) * self.facts.rad_per_count
+    }
+
+    /// How fast the shaft turns.
+    pub fn true_velocity_rad_per_s(&self) -> f64 {
+        self.plant.velocity * self.facts.rad_per_count
+    }
+
+    /// Whether the motor holds.
+    pub fn torque_is_on(&self) -> bool {
+        self.table.get(Reg::TorqueEnable) == 1
+    }
+
+    /// Whether it has power and a cable to the host.
+    pub fn is_connected(&self) -> bool {
+        self.supply.is_on()
+    }
+
+    /// Motor temperature in degrees Celsius.
+    pub fn temperature_c(&self) -> f64 {
+        self.plant.temperature_c
+    }
+
+    /// −1 to 1 of what the motor can pull.
+    pub fn effort(&self) -> f64 {
+        self.plant.effort
+    }
+
+    /// What has happened so far.
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// The present value of the register with the maker's name `name`; none if the model lacks it.
+    pub fn register(&self, name: &str) -> Option<i64> {
+        let row = self.table.row_named(name)?;
+        let known = self.table.known_at(row.address);
+        Some(
+            known
+                .and_then(|reg| self.fresh(reg, self.stepped_ns))
+                .unwrap_or_else(|| self.table.value(row)),
+        )
+    }
+
+    /// The EEPROM as bytes from address 0, to be kept between runs.
+    pub fn eeprom(&self) -> &[u8] {
+        &self.table.memory()[..self.table.eeprom_bytes()]
+    }
+
+    /// Puts back what `eeprom` gave. False: the length is that of another model, nothing is changed.
+    pub fn restore_eeprom(&mut self, bytes: &[u8]) -> bool {
+        let fits = bytes.len() == self.table.eeprom_bytes();
+        if fits {
+            self.table.memory_mut()[..bytes.len()].copy_from_slice(bytes);
+            self.start_ram(self.stepped_ns);
+        }
+        fits
+    }
+}
