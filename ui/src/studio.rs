@@ -62,7 +62,9 @@ impl Studio {
     pub fn ui(&mut self, ui: &mut Ui, seen: &Snapshot) -> Vec<Command> {
         let mut commands = Commands::new(&mut self.queue, &mut self.choices);
         keyboard::act(ui.ctx(), seen, &mut commands);
-        let window = ui.max_rect();
+        // All of the window: whoever embeds the studio may keep a margin, the studio does not.
+        let window = ui.ctx().content_rect();
+        ui.set_clip_rect(window);
         let areas = Areas::of(window);
         ui.painter().rect_filled(window, 0.0, style::ink(theme::PANEL));
         for (place, panel) in &mut self.panels {

@@ -37,6 +37,8 @@ pub enum Tone {
     Plain,
     /// A switch that is on.
     On,
+    /// A switch that is off.
+    Off,
     /// What it stands for is moving now.
     Live,
     /// The one that must be found at once.
@@ -86,6 +88,12 @@ impl<'a> Button<'a> {
     #[must_use]
     pub fn named(self, name: &'a str) -> Self {
         Button { name, ..self }
+    }
+
+    /// A switch, on or off.
+    #[must_use]
+    pub fn switch(self, on: bool) -> Self {
+        self.tone(if on { Tone::On } else { Tone::Off })
     }
 
     /// How it is meant.
@@ -148,11 +156,9 @@ impl<'a> Button<'a> {
         let (rest, edge, content) = match self.tone {
             _ if !self.enabled => return (theme::PANEL, theme::EDGE, theme::FAINT),
             Tone::Plain => (theme::RAISED, theme::EDGE, theme::TEXT),
-            Tone::On => (
-                theme::SELECTED.mix(theme::PANEL, 0.86),
-                theme::SELECTED.mix(theme::PANEL, 0.4),
-                theme::SELECTED,
-            ),
+            Tone::Off => (theme::PANEL, theme::EDGE, theme::DIM),
+            // Not the accent of what is selected: a switch that is on is no target.
+            Tone::On => (theme::PRESSED, theme::FAINT, theme::LINE),
             Tone::Live => (
                 theme::LIVE.mix(theme::PANEL, 0.84),
                 theme::LIVE.mix(theme::PANEL, 0.4),
@@ -206,10 +212,10 @@ pub fn tooltip(response: Response, tip: &str, keys: &str) -> Response {
     response.on_hover_ui(show)
 }
 
-/// A place in a panel that can be clicked or dragged and has a name.
-pub fn spot(ui: &Ui, rect: Rect, id: Id, sense: Sense, name: &str) -> Response {
+/// A place in a panel that can be clicked or dragged; it has a role and a name, as everything has.
+pub fn spot(ui: &Ui, rect: Rect, id: Id, sense: Sense, (role, name): (Role, &str)) -> Response {
     let response = ui.interact(rect, id, sense);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+    response.widget_info(|| WidgetInfo::labeled(role, true, name));
     response
 }
 

@@ -1,6 +1,7 @@
 //! The desk as it really is: eight dials and twelve keys, each with its label display. A hand here touches
 //! the simulated box, which answers with bytes; a hand on a real box turns what is seen here.
 
+use egui::accesskit::Role;
 use egui::{Align2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use rig::{Command, DeskKeyView, Snapshot, Touch};
 
@@ -94,7 +95,7 @@ fn show_key(ui: &Ui, cell: Rect, index: usize, key: &DeskKeyView) -> bool {
         cell,
         ui.scope_id().with(("desk key", index)),
         Sense::click_and_drag(),
-        name.trim(),
+        (Role::Button, name.trim()),
     );
     let down = response.is_pointer_button_down_on();
     let painter = ui.painter();

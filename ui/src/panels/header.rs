@@ -3,7 +3,7 @@
 use egui::{Align2, Rect, Ui, pos2, vec2};
 use rig::{Command, Snapshot};
 
-use super::button::{Button, Icon, Tone};
+use super::button::{Button, Icon};
 use super::{Commands, Panel, layout, style};
 use crate::render::theme;
 
@@ -29,14 +29,9 @@ impl Panel for Header {
             right -= theme::STEP;
             cell
         });
-        let tone = if commands.choices.help {
-            Tone::On
-        } else {
-            Tone::Plain
-        };
         let help = Button::new("?", "Shows every key of the keyboard.", "?")
             .named("help")
-            .tone(tone);
+            .switch(commands.choices.help);
         if help.show(ui, cells[0]).clicked() {
             commands.choices.help = !commands.choices.help;
         }

@@ -8,7 +8,7 @@ use super::style::{self, ink};
 use crate::render::theme;
 
 /// Heights of a row, points: what is read comfortably, and what still reads.
-const ROW: [f32; 2] = [13.0, 18.0];
+const ROW: [f32; 2] = [12.0, 18.0];
 /// Width of the number, points: seven digits.
 const NUMBER: f32 = 50.0;
 
@@ -17,9 +17,7 @@ pub fn show(ui: &mut Ui, area: Rect, joints: &[JointView]) {
     if joints.is_empty() {
         return;
     }
-    let row = (area.height() / joints.len() as f32)
-        .floor()
-        .clamp(ROW[0], ROW[1]);
+    let row = (area.height() / joints.len() as f32).clamp(ROW[0], ROW[1]);
     ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
         ui.spacing_mut().item_spacing = egui::Vec2::ZERO;
         egui::ScrollArea::vertical()
@@ -43,7 +41,7 @@ fn show_joint(ui: &Ui, rect: Rect, joint: &JointView) {
     let colour = if joint.error.is_some() {
         theme::FAULTED
     } else if joint.present {
-        theme::TEXT
+        theme::DIM
     } else {
         theme::FAINT
     };
@@ -64,7 +62,7 @@ fn show_joint(ui: &Ui, rect: Rect, joint: &JointView) {
     };
     let at = pos2(rect.right(), middle);
     let font = style::digits(theme::SIZE_SMALL);
-    let number_colour = if joint.present { theme::DIM } else { theme::FAINT };
+    let number_colour = if joint.present { theme::TEXT } else { theme::FAINT };
     ui.painter()
         .text(at, Align2::RIGHT_CENTER, number, font, ink(number_colour));
     let response = ui.interact(

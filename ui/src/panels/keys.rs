@@ -1,5 +1,6 @@
 //! The clip's keys as a list: number, time, the way to each.
 
+use egui::accesskit::Role;
 use egui::{Align2, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 use rig::{Command, EditCommand, KeyView, Snapshot, TransportCommand};
 
@@ -96,7 +97,7 @@ fn row(ui: &Ui, rect: Rect, index: usize, key: &KeyView, seen: &Snapshot) -> boo
         rect,
         ui.scope_id().with(("key", index)),
         Sense::click(),
-        &name,
+        (Role::ListItem, &name),
     );
     let painter = ui.painter();
     let colour = if key.selected {

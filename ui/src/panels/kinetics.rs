@@ -1,6 +1,7 @@
 //! The kinetic curve over the keys: across it is time, upwards the key that is reached. Steep is fast, flat
 //! is a rest; what goes down runs backwards. Its coefficients are dragged up and down; the path never moves.
 
+use egui::accesskit::Role;
 use egui::{Align2, Pos2, Rect, Sense, Stroke, Ui, pos2};
 use rig::{Command, EditCommand, Snapshot};
 
@@ -48,12 +49,13 @@ impl Curve {
     ) {
         let painter = ui.painter().with_clip_rect(area);
         let label = ("kinetics", style::words(theme::SIZE_SMALL));
-        let corner = area.left_top() + egui::vec2(theme::GAP, theme::STEP);
+        // Where the curve never is: it ends in the upper corner, and time begins on the left.
+        let corner = area.right_bottom() - egui::vec2(theme::GAP, 2.0);
         if seen.kinetics.curve.len() < 2 {
             style::line(
                 &painter,
                 corner,
-                Align2::LEFT_TOP,
+                Align2::RIGHT_BOTTOM,
                 label,
                 theme::FAINT,
                 area.width(),
@@ -91,7 +93,7 @@ impl Curve {
             .map(|&[t, u]| pos2(line.x(t), scale.y(u)))
             .collect();
         painter.line(points, Stroke::new(1.6, ink(theme::TEXT)));
-        style::line(&painter, corner, Align2::LEFT_TOP, label, theme::FAINT, 80.0);
+        style::line(&painter, corner, Align2::RIGHT_BOTTOM, label, theme::FAINT, 80.0);
         if let Some(u) = at_time(&seen.kinetics.curve, seen.transport.secs) {
             painter.circle_filled(
                 pos2(line.x(seen.transport.secs), scale.y(u)),
@@ -137,7 +139,7 @@ fn coefficients(ui: &Ui, scale: &Scale, line: &Timeline, seen: &Snapshot, comman
             rect,
             ui.scope_id().with(("coefficient", index)),
             Sense::click_and_drag(),
-            &name,
+            (Role::Slider, &name),
         );
         let colour = if chosen == Some(index) {
             theme::SELECTED

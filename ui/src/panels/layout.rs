@@ -15,8 +15,8 @@ const DESK: f32 = 128.0;
 const TRANSPORT: f32 = 148.0;
 /// Heights in the column, points.
 const HEADER: f32 = 36.0;
-const KEYS: f32 = 156.0;
-const DEVICES: f32 = 100.0;
+const KEYS: f32 = 148.0;
+const DEVICES: f32 = 88.0;
 
 /// The rectangles of all panels; they fill the window and do not overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,12 +47,13 @@ impl Areas {
         let (left, top) = (window.left(), window.top());
         // A hand's width more on large screens: labels and bars gain, the figure still gains most.
         let column = right - (COLUMN + ((right - left - SMALLEST[0]) * 0.1).min(72.0)).round();
-        let desk = bottom - DESK;
-        let transport = desk - TRANSPORT;
+        let taller = bottom - top - SMALLEST[1];
+        let desk = bottom - DESK - (taller * 0.06).min(32.0).round();
+        let transport = desk - TRANSPORT - (taller * 0.14).min(72.0).round();
         let side = left + ((column - left) * 0.72).round();
         let keys = top + HEADER;
-        let puppet = keys + KEYS + ((bottom - top - SMALLEST[1]) * 0.25).min(120.0).round();
-        let devices = bottom - DEVICES - ((bottom - top - SMALLEST[1]) * 0.1).min(60.0).round();
+        let puppet = keys + KEYS + (taller * 0.25).min(120.0).round();
+        let devices = bottom - DEVICES - (taller * 0.1).min(60.0).round();
         let rect = |x0: f32, y0: f32, x1: f32, y1: f32| Rect::from_min_max(pos2(x0, y0), pos2(x1, y1));
         Areas {
             front: rect(left, top, side, transport),

@@ -14,9 +14,9 @@ use crate::render::timeline::clock_text;
 pub struct Puppet;
 
 /// Height of STOP, points: the largest button there is.
-const STOP: f32 = 44.0;
+const STOP: f32 = 40.0;
 /// Height of what a fault or the player has to say, points; kept free so that nothing jumps.
-const REMARK: f32 = 34.0;
+const REMARK: f32 = 30.0;
 
 impl Panel for Puppet {
     fn title(&self) -> &'static str {

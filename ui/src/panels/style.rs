@@ -1,6 +1,8 @@
 //! The theme's plain numbers as egui wants them.
 
-use egui::{Align2, Color32, CornerRadius, FontFamily, FontId, Painter, Pos2, Rect, Stroke, Visuals};
+use std::sync::Arc;
+
+use egui::{Align2, Color32, CornerRadius, FontFamily, FontId, Galley, Painter, Pos2, Rect, Stroke, Visuals};
 
 use crate::render::theme::{self, Rgb};
 
@@ -82,18 +84,16 @@ pub fn title(painter: &Painter, area: Rect, text: &str) -> Rect {
     rest
 }
 
-/// One line of text that never leaves its width: what does not fit ends in an ellipsis.
-pub fn line(
-    painter: &Painter,
-    at: Pos2,
-    anchor: Align2,
-    (text, font): (&str, FontId),
-    colour: Rgb,
-    width: f32,
-) {
+/// Lays out one line of text that never leaves its width: what does not fit ends in an ellipsis.
+pub fn layout(painter: &Painter, (text, font): (&str, FontId), colour: Rgb, width: f32) -> Arc<Galley> {
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, ink(colour));
     job.wrap = egui::text::TextWrapping::truncate_at_width(width.max(1.0));
-    let galley = painter.layout_job(job);
+    painter.layout_job(job)
+}
+
+/// Paints such a line.
+pub fn line(painter: &Painter, at: Pos2, anchor: Align2, text: (&str, FontId), colour: Rgb, width: f32) {
+    let galley = layout(painter, text, colour, width);
     let rect = anchor.anchor_size(at, galley.size());
     painter.galley(rect.min.round(), galley, ink(colour));
 }

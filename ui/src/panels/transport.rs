@@ -1,5 +1,6 @@
 //! Time: play, scrub, keys as diamonds, and above them the kinetic curve.
 
+use egui::accesskit::Role;
 use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
 use rig::{Command, EditCommand, KineticsMode, Snapshot, TransportCommand};
 
@@ -64,8 +65,8 @@ impl Panel for Transport {
         );
         paint_ruler(ui, ruler, ground, &line);
         self.curve.show(ui, curve, &line, seen, commands);
-        self.track(ui, track, &line, seen, commands);
         paint_playhead(ui, ground, &line, seen);
+        self.track(ui, track, &line, seen, commands);
     }
 }
 
@@ -73,7 +74,7 @@ impl Transport {
     /// The whole strip is for scrubbing; keys and coefficients lie above it and take the pointer first.
     fn scrub(&self, ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut Commands<'_>) {
         let id = ui.scope_id().with("scrub");
-        let response = button::spot(ui, area, id, Sense::click_and_drag(), "scrub");
+        let response = button::spot(ui, area, id, Sense::click_and_drag(), (Role::Canvas, "scrub"));
         let pressed = response.dragged() || response.clicked();
         if let (true, Some(at)) = (pressed, response.interact_pointer_pos()) {
             let secs = line.secs(at.x);
@@ -111,7 +112,7 @@ impl Transport {
                 rect,
                 ui.scope_id().with(("diamond", index)),
                 Sense::click_and_drag(),
-                &name,
+                (Role::Slider, &name),
             );
             let colour = if key.selected {
                 theme::SELECTED
@@ -233,12 +234,8 @@ fn button_row(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'
             commands.push(Command::Transport(order));
         }
     }
-    let tone = if seen.transport.looped {
-        Tone::On
-    } else {
-        Tone::Plain
-    };
-    let again = Button::icon(Icon::Loop, "loop", "Starts over at the end.", "L").tone(tone);
+    let again =
+        Button::icon(Icon::Loop, "loop", "Starts over at the end.", "L").switch(seen.transport.looped);
     if again.show(ui, cell(32.0, theme::MARGIN)).clicked() {
         commands.push(Command::Transport(TransportCommand::ToggleLoop));
     }
@@ -254,9 +251,10 @@ fn readout(ui: &Ui, at: egui::Pos2, seen: &Snapshot) {
     } else {
         theme::TEXT
     };
-    // Eight places: the number grows to the left and its neighbours stay.
+    // As many places as the clip's length needs: the number grows to the left and its neighbours stay.
     let font = style::digits(theme::SIZE_READOUT);
-    let right = at + vec2(84.0, 0.0);
+    let places = clock_text(seen.transport.end_secs).len().max(now.len()) as f32;
+    let right = at + vec2((places * theme::SIZE_READOUT * 0.61).ceil(), 0.0);
     ui.painter()
         .text(right, Align2::RIGHT_CENTER, now, font, ink(colour));
     let length = format!("/ {} s", clock_text(seen.transport.end_secs));
@@ -321,12 +319,7 @@ fn right_side(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'
         ),
     ];
     for (text, name, tip, mode) in modes {
-        let tone = if seen.kinetics.mode == name {
-            Tone::On
-        } else {
-            Tone::Plain
-        };
-        let button = Button::new(text, tip, "M: the next one").tone(tone);
+        let button = Button::new(text, tip, "M: the next one").switch(seen.kinetics.mode == name);
         if button.show(ui, cell(72.0, theme::STEP)).clicked() {
             commands.push(Command::Edit(EditCommand::KineticsMode(mode)));
         }

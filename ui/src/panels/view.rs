@@ -1,9 +1,10 @@
 //! The figure: the large front view and the narrow side view, at the same scale and height.
 
+use egui::accesskit::Role;
 use egui::{Align2, PointerButton, Pos2, Rect, Response, Sense, Ui, pos2, vec2};
 use rig::{Command, FigureView, NoteLevel, PoseCommand, Snapshot, ViewCommand};
 
-use super::button::{self, Button, Tone};
+use super::button::{self, Button};
 use super::style::{self, ink};
 use super::{Commands, Panel, canvas};
 use crate::render::camera::Camera;
@@ -34,7 +35,13 @@ impl Panel for Front {
         let scene = stage::scene(seen, &commands.choices.look);
         canvas::show(ui, area, "front", &scene);
         let id = ui.scope_id().with("front");
-        let response = button::spot(ui, area, id, Sense::click_and_drag(), "front view");
+        let response = button::spot(
+            ui,
+            area,
+            id,
+            Sense::click_and_drag(),
+            (Role::Canvas, "front view"),
+        );
         self.point(ui, area, &scene.camera, &response, seen, commands);
         caption(ui, area, "front", &angles(seen));
         switches(ui, area, commands);
@@ -99,11 +106,12 @@ impl Front {
     }
 }
 
-/// The pointer as the posing cursor: −1…1 from the middle in half-heights, y up.
+/// The pointer as the posing cursor, in the rig's half-heights from the middle, y up.
 fn cursor(area: Rect, at: Pos2) -> [f64; 2] {
     let half = area.height() / 2.0;
     let from_middle = at - area.center();
-    [f64::from(from_middle.x / half), f64::from(-from_middle.y / half)]
+    let [x, y] = [f64::from(from_middle.x / half), f64::from(-from_middle.y / half)];
+    [x, y].map(|shown| (shown * stage::SHOWN_HALF_HEIGHT).clamp(-1.0, 1.0))
 }
 
 fn on_screen(camera: &Camera, area: Rect, world: glam::DVec3) -> Pos2 {
@@ -191,7 +199,7 @@ fn switches(ui: &mut Ui, area: Rect, commands: &mut Commands<'_>) {
         ("Floor", "A grid under the feet.", "G", &mut look.floor),
         (
             "Ticks",
-            "The way of the selected link, one tick each 1/24 s: close is slow, wide is fast.",
+            "The way of the selected link, one tick each 1/12 s: close is slow, wide is fast.",
             "T",
             &mut look.ticks,
         ),
@@ -203,9 +211,8 @@ fn switches(ui: &mut Ui, area: Rect, commands: &mut Commands<'_>) {
         ),
     ];
     for (text, tip, keys, on) in switches {
-        let tone = if *on { Tone::On } else { Tone::Plain };
         if Button::new(text, tip, keys)
-            .tone(tone)
+            .switch(*on)
             .show(ui, cell(56.0))
             .clicked()
         {
@@ -232,15 +239,17 @@ fn remark(ui: &Ui, area: Rect, seen: &Snapshot) {
         theme::TEXT
     };
     let at = pos2(area.left() + theme::MARGIN, area.bottom() - theme::MARGIN);
-    let text = (note.text.as_str(), style::words(theme::SIZE_BODY));
-    style::line(
-        ui.painter(),
-        at,
-        Align2::LEFT_BOTTOM,
-        text,
-        colour,
-        area.width() - 2.0 * theme::MARGIN,
+    let font = style::words(theme::SIZE_BODY);
+    let width = area.width() - 2.0 * theme::MARGIN;
+    // On the ground's own colour, so that the grid does not strike it through.
+    let galley = style::layout(ui.painter(), (&note.text, font), colour, width);
+    let rect = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
+    ui.painter().rect_filled(
+        rect.expand2(vec2(theme::STEP, 2.0)),
+        style::round(),
+        ink(theme::GROUND),
     );
+    ui.painter().galley(rect.min.round(), galley, ink(colour));
 }
 
 impl Panel for Side {
@@ -256,7 +265,7 @@ impl Panel for Side {
         ui.painter()
             .vline(area.left() + 0.5, area.y_range(), style::hair(theme::EDGE));
         let id = ui.scope_id().with("side");
-        let response = button::spot(ui, area, id, Sense::click(), "side view");
+        let response = button::spot(ui, area, id, Sense::click(), (Role::Canvas, "side view"));
         let offered = seen.figure.as_ref().map_or(&[][..], |figure| &figure.candidates);
         if let (Some(at), [near, far]) = (
             response.interact_pointer_pos().filter(|_| response.clicked()),
@@ -286,9 +295,15 @@ mod tests {
     #[test]
     fn pointer_and_projection_agree() {
         let area = Rect::from_min_size(pos2(10.0, 20.0), vec2(700.0, 400.0));
-        let camera = Camera::turned(0.0, 0.0, DVec3::ZERO, 1.0);
-        let at = on_screen(&camera, area, DVec3::new(0.5, 0.25, 3.0));
+        let view = rig::ViewState {
+            scale: 2.0,
+            ..rig::ViewState::default()
+        };
+        let at = on_screen(&stage::camera(&view), area, DVec3::new(0.2, 0.1, 3.0));
         let [x, y] = cursor(area, at);
-        assert!((x - 0.5).abs() < 1e-6 && (y - 0.25).abs() < 1e-6, "{x} {y}");
+        assert!(
+            (x - 0.4).abs() < 1e-6 && (y - 0.2).abs() < 1e-6,
+            "{x} {y}: metres times the rig's scale"
+        );
     }
 }

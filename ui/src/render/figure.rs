@@ -45,7 +45,7 @@ impl Style {
 }
 
 /// How much of a shape's own colour shows in the figure; more would compete with the accents.
-const TINT: f32 = 0.22;
+const TINT: f32 = 0.06;
 
 /// Adds a pose. `shapes` has one list of vectors a link, in link axes; a link without one (or an empty
 /// one) is drawn as a line from start to end.
@@ -99,19 +99,22 @@ pub fn add(scene: &mut Scene, placed: &[Placed], shapes: &[Vec<Vector>], style: 
 }
 
 fn tinted_with(colour: Rgb, vector: &Vector) -> Rgb {
-    colour.mix(vector_colour(vector), TINT * vector.saturation as f32)
+    colour.mix(
+        colour_of(vector.hue_deg, vector.saturation, vector.intensity),
+        TINT * vector.saturation as f32,
+    )
 }
 
-/// The colour of a vector of the display structure: hue 0 blue, 120 red, 240 green; saturation 0 grey … 1
-/// full; intensity 0 black … 1 full.
+/// A colour of the display structure: hue 0 blue, 120 red, 240 green; saturation 0 grey … 1 full; intensity
+/// 0 black … 1 full.
 /// Source: PS 300 Document Set, SET COLOR; TR-88-032, colour tables.
-pub fn vector_colour(vector: &Vector) -> Rgb {
-    let full = |from_peak: f64| {
-        let away = (vector.hue_deg - from_peak).rem_euclid(360.0);
+pub fn colour_of(hue_deg: f64, saturation: f64, intensity: f64) -> Rgb {
+    let full = |peak_deg: f64| {
+        let away = (hue_deg - peak_deg).rem_euclid(360.0);
         let away = away.min(360.0 - away);
         let pure = ((120.0 - away) / 60.0).clamp(0.0, 1.0);
-        let grey = 1.0 - vector.saturation.clamp(0.0, 1.0) * (1.0 - pure);
-        (grey * vector.intensity.clamp(0.0, 1.0) * 255.0).round() as u8
+        let grey = 1.0 - saturation.clamp(0.0, 1.0) * (1.0 - pure);
+        (grey * intensity.clamp(0.0, 1.0) * 255.0).round() as u8
     };
     Rgb(full(120.0), full(240.0), full(0.0))
 }
@@ -119,16 +122,6 @@ pub fn vector_colour(vector: &Vector) -> Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn vector(hue_deg: f64, saturation: f64, intensity: f64) -> Vector {
-        Vector {
-            from: DVec3::ZERO,
-            to: DVec3::Z,
-            hue_deg,
-            saturation,
-            intensity,
-        }
-    }
 
     #[test]
     fn the_wheel_begins_at_blue() {
@@ -140,8 +133,8 @@ mod tests {
             (240.0, Rgb(0, 255, 0)),
             (360.0, Rgb(0, 0, 255)),
         ] {
-            assert_eq!(vector_colour(&vector(hue, 1.0, 1.0)), want, "hue {hue}");
+            assert_eq!(colour_of(hue, 1.0, 1.0), want, "hue {hue}");
         }
-        assert_eq!(vector_colour(&vector(77.0, 0.0, 0.5)), Rgb(128, 128, 128));
+        assert_eq!(colour_of(77.0, 0.0, 0.5), Rgb(128, 128, 128));
     }
 }

@@ -212,7 +212,8 @@ fn text(label: &super::scene::Label, scene: &Scene, port: &Viewport) -> Text {
 fn inked(ink: Ink, depth: f64) -> Rgb {
     let cue = if ink.cued {
         let near = (depth.clamp(-1.0, 1.0) as f32 + 1.0) / 2.0;
-        theme::CUE_FAR + (1.0 - theme::CUE_FAR) * near
+        // The root keeps the middle of the picture bright and lets only the far half sink.
+        theme::CUE_FAR + (1.0 - theme::CUE_FAR) * near.sqrt()
     } else {
         1.0
     };

@@ -17,6 +17,7 @@ pub mod raster;
 pub mod scene;
 pub mod sheet;
 pub mod stage;
+pub mod structures;
 pub mod text;
 pub mod theme;
 pub mod timeline;

@@ -146,19 +146,14 @@ impl Scene {
         }
     }
 
-    /// The same things from the side; see [`Camera::side`]. Labels in corners are left out.
+    /// The same things from the side; see [`Camera::side`]. Labels are left out: the front view has them.
     #[must_use]
     pub fn side(&self) -> Scene {
         Scene {
             camera: self.camera.side(),
             strokes: self.strokes.clone(),
             dots: self.dots.clone(),
-            labels: self
-                .labels
-                .iter()
-                .filter(|l| matches!(l.place, Place::World(..)))
-                .cloned()
-                .collect(),
+            labels: Vec::new(),
         }
     }
 

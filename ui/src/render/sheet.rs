@@ -58,6 +58,13 @@ pub struct Layout {
     pub between: usize,
 }
 
+impl Layout {
+    /// What the caption leaves of a cell.
+    fn pose_height(&self) -> u32 {
+        self.cell_height.saturating_sub(CAPTION).max(1)
+    }
+}
+
 impl Default for Layout {
     /// Six poses a row, 1248 pixels wide: two keys with two in-betweens each.
     fn default() -> Self {
@@ -115,12 +122,12 @@ fn place(clip: &Clip, secs: f64) -> Vec<Placed> {
     placed
 }
 
-/// Room above and below the largest pose, and for the caption.
-const CAPTION: f32 = 30.0;
+/// Height of the caption under a pose, pixels.
+const CAPTION: u32 = 36;
 
 /// The camera around all poses, each about its own middle.
 fn fitted(camera: &Camera, poses: &[Vec<Placed>], layout: &Layout) -> Camera {
-    let aspect = f64::from(layout.cell_width) / f64::from(layout.cell_height);
+    let aspect = f64::from(layout.cell_width) / f64::from(layout.pose_height());
     let unit = Camera {
         half_height: 1.0,
         half_depth: 1.0,
@@ -132,10 +139,9 @@ fn fitted(camera: &Camera, poses: &[Vec<Placed>], layout: &Layout) -> Camera {
             continue;
         };
         let half = (bounds.1 - bounds.0) / 2.0;
-        let caption = 1.0 - 2.0 * f64::from(CAPTION) / f64::from(layout.cell_height);
-        need = need.max(half.y / caption.max(0.2)).max(half.x / aspect);
+        need = need.max(half.y).max(half.x / aspect);
     }
-    let half_height = need * 1.12;
+    let half_height = need * 1.1;
     Camera {
         half_height,
         half_depth: half_height * 0.6,
@@ -180,13 +186,16 @@ fn cell(
     }
     let mut style = Style::present(None);
     if moment.key.is_none() {
-        style.ink = style.ink.faded(0.62);
+        style.ink = style.ink.faded(0.75);
         style.width = theme::WIDTH_GHOST * 1.3;
     }
     figure::add(&mut scene, pose, shapes, style);
     let (width, height) = (layout.cell_width, layout.cell_height);
     let mut canvas = Canvas::new(width, height);
-    canvas.paint(&Flat::new(&scene, &Viewport::of_size(width, height)));
+    canvas.paint(&Flat::new(
+        &scene,
+        &Viewport::of_size(width, layout.pose_height()),
+    ));
     caption(&mut canvas, moment, width as f32, height as f32);
     canvas.finish()
 }
@@ -203,7 +212,7 @@ fn caption(canvas: &mut Canvas, moment: &Moment, width: f32, height: f32) {
     let text_width = canvas.text_width(&text, theme::SIZE_BODY);
     let room = if mark > 0.0 { 2.0 * mark + theme::GAP } else { 0.0 };
     let left = ((width - text_width - room) / 2.0).round();
-    let top = height - theme::SIZE_BODY - theme::GAP;
+    let top = height - theme::SIZE_BODY - theme::MARGIN;
     if mark > 0.0 {
         canvas.diamond(
             [left + mark, (top + theme::SIZE_BODY / 2.0).round()],

@@ -6,6 +6,7 @@ use rig::{FigureView, Snapshot, ViewState};
 use super::camera::Camera;
 use super::figure::{self, Style};
 use super::scene::{Ink, Layer, Mark, Place, Scene};
+use super::structures;
 use super::theme;
 use super::trail::{self, Samples};
 
@@ -35,7 +36,7 @@ impl Default for Look {
             onion_count: 3,
             onion_step_secs: 0.12,
             ticks: true,
-            tick_secs: 1.0 / 24.0,
+            tick_secs: 1.0 / 12.0,
             floor: true,
             editing: true,
         }
@@ -52,9 +53,18 @@ impl Look {
     }
 }
 
+/// The rig's picture reaches from −1 to 1, but a tablet's shorter side only to about 0.7, and a fitted figure
+/// to 0.55: pictures show this much of it, so that the figure fills them and every place a hand can reach is
+/// still seen.
+pub const SHOWN_HALF_HEIGHT: f64 = 0.72;
+
 /// The camera of a rig's view.
 pub fn camera(view: &ViewState) -> Camera {
-    let half_height = if view.scale > 1e-9 { 1.0 / view.scale } else { 1.0 };
+    let half_height = if view.scale > 1e-9 {
+        SHOWN_HALF_HEIGHT / view.scale
+    } else {
+        SHOWN_HALF_HEIGHT
+    };
     Camera::turned(view.azimuth_rad, view.elevation_rad, view.centre, half_height)
 }
 
@@ -63,7 +73,8 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
     let mut scene = Scene::new(camera(&seen.view));
     let samples = seen.clip.as_ref().map(|clip| Samples::of(clip, look.tick_secs));
     let shown = seen.figure.as_ref();
-    if look.floor {
+    let anything = shown.is_some() || samples.is_some() || !seen.display.strokes.is_empty();
+    if look.floor && anything {
         let lowest = samples
             .as_ref()
             .and_then(Samples::lowest)
@@ -75,12 +86,10 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
         trail::add_onion(&mut scene, clip, &figure.shapes, seen.transport.secs, steps);
     }
     if let (true, Some(samples), Some(figure)) = (look.ticks, &samples, shown) {
-        add_trails(&mut scene, samples, figure, look, &seen.keys);
+        let now = (seen.keys.as_slice(), seen.transport.secs);
+        add_trails(&mut scene, samples, figure, look, now);
     }
-    for vector in &seen.display.strokes {
-        let ink = Ink::new(figure::vector_colour(vector), Layer::Figure);
-        scene.stroke(vector.from, vector.to, theme::WIDTH_GHOST, ink);
-    }
+    structures::add(&mut scene, &seen.display);
     if let Some(figure) = shown {
         let selected = figure.selected.filter(|_| look.editing).map(usize::from);
         figure::add(
@@ -96,16 +105,33 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
     scene
 }
 
-/// The selected link's way, or faintly those of all extremities.
-fn add_trails(scene: &mut Scene, samples: &Samples, figure: &FigureView, look: &Look, keys: &[rig::KeyView]) {
-    let key_secs: Vec<f64> = keys.iter().map(|key| key.secs).collect();
-    match figure.selected.filter(|_| look.editing) {
-        Some(link) => samples.add_trail(scene, usize::from(link), theme::SELECTED, 0.8, &key_secs),
-        None => {
-            for (link, _) in extremities(figure) {
-                samples.add_trail(scene, link, theme::DIM, 0.6, &[]);
-            }
-        }
+/// How far before and after the present moment the ways of the extremities are shown, seconds.
+const NEARBY_SECS: f64 = 0.5;
+
+/// The selected link's whole way, or a little of those of all extremities.
+fn add_trails(
+    scene: &mut Scene,
+    samples: &Samples,
+    figure: &FigureView,
+    look: &Look,
+    (keys, now_secs): (&[rig::KeyView], f64),
+) {
+    if let Some(link) = figure.selected.filter(|_| look.editing) {
+        let key_secs: Vec<f64> = keys.iter().map(|key| key.secs).collect();
+        let ink = Ink::new(theme::SELECTED, Layer::Trail).faded(0.7);
+        let always = [f64::NEG_INFINITY, f64::INFINITY];
+        samples.add_trail(scene, usize::from(link), always, ink, &key_secs);
+        return;
+    }
+    let nearby = [now_secs - NEARBY_SECS, now_secs + NEARBY_SECS];
+    for (link, _) in extremities(figure) {
+        samples.add_trail(
+            scene,
+            link,
+            nearby,
+            Ink::new(theme::DIM, Layer::Trail).faded(0.7),
+            &[],
+        );
     }
 }
 
@@ -186,7 +212,8 @@ fn add_editing(scene: &mut Scene, figure: &FigureView) {
 fn add_cursor(scene: &mut Scene, cursor: DVec2) {
     let camera = scene.camera;
     let world_from_view = camera.view_from_world.transpose();
-    let at = camera.centre + world_from_view * (cursor * camera.half_height).extend(0.0);
+    let at =
+        camera.centre + world_from_view * (cursor * (camera.half_height / SHOWN_HALF_HEIGHT)).extend(0.0);
     let along = world_from_view.z_axis * camera.half_height * 3.0;
     let ink = Ink::new(theme::LIVE, Layer::Overlay).flat();
     scene.stroke(at - along, at + along, theme::WIDTH_GRID, ink.faded(0.6));
@@ -201,10 +228,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_empty_rig_is_an_empty_floor() {
+    fn an_empty_rig_is_an_empty_picture() {
         let scene = scene(&Snapshot::default(), &Look::default());
-        assert_eq!(scene.strokes.len(), 22);
-        assert!(scene.labels.is_empty() && scene.dots.is_empty());
+        assert!(scene.strokes.is_empty() && scene.labels.is_empty() && scene.dots.is_empty());
     }
 
     #[test]

@@ -66,9 +66,9 @@ pub const ROUND: f32 = 3.0;
 pub const ROW: f32 = 24.0;
 
 /// Width of a figure's limb; points.
-pub const WIDTH_LINK: f32 = 2.6;
+pub const WIDTH_LINK: f32 = 3.0;
 /// Width of the selected limb; points.
-pub const WIDTH_SELECTED: f32 = 3.6;
+pub const WIDTH_SELECTED: f32 = 4.0;
 /// Width of ghosts and trails; points.
 pub const WIDTH_GHOST: f32 = 1.3;
 /// Width of grid lines; points.

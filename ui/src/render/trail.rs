@@ -9,8 +9,8 @@ use motion::figure::Placed;
 use ps300::display::Stroke as Vector;
 
 use super::figure::{self, Style};
-use super::scene::{Ink, Layer, Mark, Scene};
-use super::theme::{self, Rgb};
+use super::scene::{Ink, Mark, Scene};
+use super::theme;
 
 /// The clip's time from first to last key, seconds.
 pub fn span_secs(clip: &Clip) -> [f64; 2] {
@@ -87,23 +87,34 @@ impl Samples {
         lowest(self.placed.iter().flatten())
     }
 
-    /// Adds the way of `link`'s end, a tick at each step of time and a diamond at each key.
-    pub fn add_trail(&self, scene: &mut Scene, link: usize, colour: Rgb, strength: f32, key_secs: &[f64]) {
-        let ends: Vec<DVec3> = self
-            .placed
-            .iter()
-            .filter_map(|p| p.get(link))
-            .map(|p| p.end)
+    /// Adds the way of `link`'s end from `from_secs` to `to_secs`, a tick at each step of time and a diamond at
+    /// each key.
+    pub fn add_trail(
+        &self,
+        scene: &mut Scene,
+        link: usize,
+        [from_secs, to_secs]: [f64; 2],
+        ink: Ink,
+        key_secs: &[f64],
+    ) {
+        let inside = |secs: f64| (from_secs..=to_secs).contains(&secs);
+        let ways = self.secs.iter().zip(&self.placed).enumerate();
+        let ends: Vec<(usize, DVec3)> = ways
+            .filter(|(_, (secs, _))| inside(**secs))
+            .filter_map(|(index, (_, placed))| Some((index, placed.get(link)?.end)))
             .collect();
-        let ink = Ink::new(colour, Layer::Trail);
-        scene.polyline(&ends, theme::WIDTH_GHOST, ink.faded(0.45 * strength));
-        for tick in ends.iter().step_by(self.per_tick) {
-            scene.dot(*tick, 1.8, Mark::Disc, ink.faded(0.85 * strength));
+        let points: Vec<DVec3> = ends.iter().map(|(_, end)| *end).collect();
+        scene.polyline(&points, theme::WIDTH_GHOST, ink.faded(ink.strength * 0.5));
+        for (_, end) in ends.iter().filter(|(index, _)| index % self.per_tick == 0) {
+            scene.dot(*end, 1.8, Mark::Disc, ink);
         }
-        for &key in key_secs {
-            let after = self.secs.partition_point(|&s| s < key - 1e-9);
-            if let Some(at) = ends.get(after.min(ends.len().saturating_sub(1))) {
-                scene.dot(*at, 4.0, Mark::Diamond, ink.faded(strength));
+        for &key in key_secs.iter().filter(|&&key| inside(key)) {
+            let after = self
+                .secs
+                .partition_point(|&s| s < key - 1e-9)
+                .min(self.placed.len().saturating_sub(1));
+            if let Some(placed) = self.placed.get(after).and_then(|placed| placed.get(link)) {
+                scene.dot(placed.end, 4.0, Mark::Diamond, ink);
             }
         }
     }

@@ -40,7 +40,7 @@ fn helix() -> Scene {
 }
 
 /// Changes only on purpose: look at the picture before you write the new number here.
-const HELIX_HASH: u64 = 0x5da8_f8fe_a7c4_3e55;
+const HELIX_HASH: u64 = 0xefc6_c5b9_e9f4_5c68;
 
 #[test]
 fn the_processors_picture_is_the_same_everywhere() {

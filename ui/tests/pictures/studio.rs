@@ -73,3 +73,23 @@ fn the_studio_looks_right_at_both_sizes() {
         }
     }
 }
+
+#[test]
+fn a_film_frame_and_a_sheet_need_no_card() {
+    let seen = walker::playing();
+    let picture = ui::render::frame::draw(&seen, &ui::render::stage::Look::film(), 960, 540);
+    let file = std::fs::File::create(picture_path("frame.png")).expect("the folder is ours");
+    ui::render::film::write_png(&picture, file).expect("a picture is a PNG");
+    let figure = walker::figure();
+    let clip = walker::clip(&figure);
+    let sheet = ui::render::sheet::draw(
+        &clip,
+        &walker::shapes(),
+        &walker::KEY_SECS,
+        &ui::render::stage::camera(&seen.view),
+        &ui::render::sheet::Layout::default(),
+        "first steps: walk",
+    );
+    let file = std::fs::File::create(picture_path("poses.png")).expect("the folder is ours");
+    ui::render::film::write_png(&sheet, file).expect("a picture is a PNG");
+}

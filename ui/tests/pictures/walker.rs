@@ -72,6 +72,7 @@ pub(crate) fn shapes() -> Vec<Vec<Stroke>> {
         hue_deg,
         saturation: 1.0,
         intensity: 1.0,
+        view: 0,
     };
     LINKS
         .iter()
