@@ -49,6 +49,9 @@ pub struct PuppetBus {
 pub struct PuppetGroup {
     /// The figure link it follows, and this group's own name.
     pub link: String,
+    /// What the same link is called in other figures, motion capture above all; tried in this order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<String>,
     /// The link of the group it hangs from; absent for the root.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parent: Option<String>,

@@ -99,8 +99,24 @@ pub enum PoseCommand {
     },
     /// Sets the selected link's direction outright (world axes; need not be unit).
     Direction([f64; 3]),
-    /// Moves the figure's root, metres.
+    /// Sets a link's direction outright, whichever is selected (world axes; need not be unit).
+    LinkDirection {
+        /// The link, by its place in the figure's order.
+        link: u16,
+        /// Where it points.
+        direction: [f64; 3],
+    },
+    /// Sets a link's twist about its own axis.
+    LinkTwist {
+        /// The link, by its place in the figure's order.
+        link: u16,
+        /// Radians, unlimited.
+        twist_rad: f64,
+    },
+    /// Puts the figure's root at a place, metres.
     Root([f64; 3]),
+    /// Moves the figure's root, metres, added.
+    RootBy([f64; 3]),
     /// Takes over the pose the clip shows at the present time.
     FromClip,
 }

@@ -4,17 +4,33 @@
 //! parameters become commands, and how everything is journalled.
 //! *Must not know* any window, any picture, or whether a device is real: transports come in through
 //! [`Ports`].
-//! *Start reading* at [`command`] and [`snapshot`] (what goes in and out), then [`rig`](mod@rig) (the order).
+//! *Start reading* at [`command`] and [`snapshot`] (what goes in and out), then [`Rig::step`] (the order).
 
 pub mod command;
+mod desk;
 pub mod document;
 pub mod history;
+mod inputs;
+pub mod journal;
+mod notes;
+pub mod parameters;
+mod ports;
+pub mod puppet;
+mod rig;
 pub mod snapshot;
+mod stage;
+mod timeline;
+mod view;
+mod wiring;
 
 pub use command::{
     Command, EditCommand, KineticsMode, PoseCommand, PuppetCommand, Side, Touch, TransportCommand,
     ViewCommand,
 };
+pub use inputs::{InputError, InputSpec};
+pub use ports::{Found, Ports, TouchError};
+pub use puppet::{Pace, PuppetSpec};
+pub use rig::{Rig, RigError, RigOptions};
 pub use snapshot::{
     DeskKeyView, DeskView, DeviceHealth, DeviceView, DialView, FigureView, JointView, KeyView, KineticsView,
     Note, NoteLevel, PuppetState, PuppetView, Snapshot, TransportView, ViewState,

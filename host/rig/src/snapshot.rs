@@ -9,6 +9,8 @@ use motion::clip::Clip;
 use motion::figure::{Figure, FigurePose, Placed};
 use ps300::display::{DisplayList, Stroke};
 
+use crate::journal::Digest;
+
 /// The rig as it stood at the end of one step.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
@@ -112,6 +114,85 @@ pub struct TransportView {
     pub speed: f64,
 }
 
+impl Snapshot {
+    /// Takes everything that was produced into `digest`, bit for bit; what people merely read (notes) too.
+    pub fn digest(&self, digest: &mut Digest) {
+        digest.real(self.at_secs);
+        digest.bytes(&self.step.to_le_bytes());
+        digest.text(&self.show);
+        digest.text(&self.clip_name);
+        if let Some(figure) = &self.figure {
+            figure.digest(digest);
+        }
+        for key in &self.keys {
+            digest.real(key.secs);
+            digest.bytes(&[u8::from(key.selected)]);
+        }
+        for [secs, u] in self.kinetics.curve.iter().chain(&self.kinetics.coefficients) {
+            digest.real(*secs);
+            digest.real(*u);
+        }
+        digest.real(self.transport.secs);
+        digest.bytes(&[u8::from(self.transport.playing), u8::from(self.transport.looped)]);
+        for value in [self.view.azimuth_rad, self.view.elevation_rad, self.view.scale] {
+            digest.real(value);
+        }
+        for stroke in &self.display.strokes {
+            stroke
+                .from
+                .to_array()
+                .into_iter()
+                .chain(stroke.to.to_array())
+                .for_each(|v| digest.real(v));
+        }
+        self.desk.digest(digest);
+        if let Some(puppet) = &self.puppet {
+            puppet.digest(digest);
+        }
+        for note in &self.notes {
+            digest.real(note.at_secs);
+            digest.text(&note.text);
+        }
+    }
+}
+
+impl FigureView {
+    fn digest(&self, digest: &mut Digest) {
+        for placed in &self.placed {
+            let numbers = placed.start.to_array().into_iter().chain(placed.end.to_array());
+            numbers
+                .chain(placed.world_from_link.to_cols_array())
+                .for_each(|v| digest.real(v));
+        }
+        digest.bytes(&self.selected.unwrap_or(u16::MAX).to_le_bytes());
+    }
+}
+
+impl DeskView {
+    fn digest(&self, digest: &mut Digest) {
+        for dial in &self.dials {
+            digest.text(&dial.label);
+            digest.real(dial.turns);
+        }
+        for key in &self.keys {
+            digest.text(&key.label);
+            digest.bytes(&[u8::from(key.lit), u8::from(key.down)]);
+        }
+    }
+}
+
+impl PuppetView {
+    fn digest(&self, digest: &mut Digest) {
+        digest.bytes(&[self.state as u8]);
+        digest.text(self.fault.as_deref().unwrap_or_default());
+        for joint in &self.joints {
+            digest.text(&joint.name);
+            digest.real(joint.goal_rad.unwrap_or(f64::NAN));
+            digest.real(joint.measured_rad.unwrap_or(f64::NAN));
+        }
+    }
+}
+
 impl Default for TransportView {
     fn default() -> Self {
         Self {
@@ -201,6 +282,10 @@ pub struct PuppetView {
     pub interventions: u64,
     /// Control cycles that started late.
     pub late_cycles: u64,
+    /// Whether any servo may have torque.
+    pub torque: bool,
+    /// Whether this step sent goals on every bus.
+    pub goals_sent: bool,
 }
 
 /// What the player is doing.

@@ -13,7 +13,7 @@ impl Machine {
     /// Lets one command take effect, then runs the network. A command that is refused changes nothing.
     pub fn execute(&mut self, command: &Command) -> Result<(), ExecuteError> {
         self.take_effect(command)?;
-        self.run();
+        self.settle();
         Ok(())
     }
 

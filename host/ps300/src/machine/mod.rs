@@ -203,7 +203,9 @@ impl Machine {
         })
     }
 
-    fn run(&mut self) -> Ran {
+    /// Runs the network until it is quiet, or out of the budget of one command, without moving time: what a
+    /// host does between two messages that must not meet on the way.
+    pub fn settle(&mut self) -> Ran {
         let firings = self.network.limits.firings_per_command;
         with_network!(self, |network, around| network.run(firings, around))
     }

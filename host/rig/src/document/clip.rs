@@ -2,7 +2,11 @@
 
 use std::sync::Arc;
 
-use motion::{Clip, ClipError, DirectionLaw, Figure, FigureKey, Keyframes, KineticsMode, TwistLaw};
+use motion::kinetics::Ordering;
+use motion::{
+    Clip, ClipError, DirectionLaw, Figure, FigureKey, Keyframes, Kinetics, KineticsError, KineticsMode,
+    TwistLaw,
+};
 
 /// Keys and laws of one clip. The figure it belongs to is the show's.
 ///
@@ -52,6 +56,18 @@ impl ClipDoc {
             return Ok(None);
         }
         Clip::build(&self.keyframes(figure)).map(Some)
+    }
+
+    /// Whether key times and adjustments make a kinetic spline. Judged as natural ones whatever the mode,
+    /// so that the mode can be changed at any time.
+    pub(super) fn check_timing(&self) -> Result<(), KineticsError> {
+        if self.keys.is_empty() && self.coefficient_edits.is_empty() {
+            return Ok(());
+        }
+        let kinetics = Kinetics::new(&self.times_secs(), KineticsMode::Natural)?;
+        kinetics
+            .edited(&self.coefficient_edits, Ordering::Free)
+            .map(|_| ())
     }
 
     /// Times of the keys, seconds.

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use glam::DMat3;
 use motion::Figure;
 
-use super::bvh::{Skeleton, figure_of};
+use super::bvh::{Skeleton, figure_of, joint_from_link};
 use super::fault::Findings;
 use super::source::Source;
 use super::structure;
@@ -62,6 +63,13 @@ impl FigureDoc {
             shapes: "".into(),
             skeleton: None,
         }
+    }
+
+    /// How link axes lie when a motion-capture figure stands in its rest pose: `world_from_link`, one a link.
+    /// `None` for a figure of our own, whose axes are what its structure file says.
+    pub fn rest_frames(&self) -> Option<Vec<DMat3>> {
+        let skeleton = self.skeleton.as_ref()?;
+        Some(skeleton.bones().into_iter().map(joint_from_link).collect())
     }
 
     /// Adopts a skeleton; the words say why it is not this figure's.

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::skeleton::{CHANNEL_WORDS, Channel, PositionStyle, Skeleton, SkeletonJoint};
 use crate::document::fault::{FileErrors, Findings};
-use crate::document::limits::{KEYS_MAX, LINKS_MAX};
+use crate::document::limits::{KEY_GAP_SECS_MIN, KEYS_MAX, LINKS_MAX, SECS_MAX};
 use crate::document::source::{Source, finite, words};
 
 /// A file as read: rows still in the file's units (degrees).
@@ -289,7 +289,11 @@ impl<'a> Reader<'a> {
         self.expect("Time:")?;
         let word = self.word("the frame time")?;
         match finite(word.text) {
-            Ok(secs) if secs > 0.0 => Ok((frames, secs)),
+            Ok(secs) if secs >= KEY_GAP_SECS_MIN && secs * frames as f64 <= SECS_MAX => Ok((frames, secs)),
+            Ok(secs) if secs > 0.0 => {
+                let message = format!("{frames} frames of {} s each cannot be meant", word.text);
+                Err(self.stop(word.at, message))
+            }
             Ok(_) => Err(self.stop(
                 word.at,
                 format!("the frame time must be above 0 s, not `{}`", word.text),

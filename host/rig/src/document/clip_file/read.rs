@@ -9,7 +9,7 @@ use super::{ClipText, DIRECTION_LAWS, KINETICS, KeyText, LinkText, TWIST_LAWS, b
 use crate::document::clip::ClipDoc;
 use crate::document::fault::Findings;
 use crate::document::fields::{self, Fields, Placed};
-use crate::document::limits::KEYS_MAX;
+use crate::document::limits::{KEY_GAP_SECS_MIN, KEYS_MAX, SECS_MAX};
 use crate::document::show_file;
 use crate::document::source::Source;
 
@@ -31,13 +31,17 @@ pub(in crate::document) fn read(
         read_1(file, found)
     };
     check_times(source, &text.keys, found);
-    let keys = match figure {
+    let mut clip = text.laws;
+    clip.keys = match figure {
         Some(figure) => bind::bind(source, &text.keys, figure, found),
         None => Vec::new(),
     };
-    let mut clip = text.laws;
-    check_edits(source, &clip, text.keys.len(), found);
-    clip.keys = keys;
+    if found.errors.is_empty()
+        && figure.is_some()
+        && let Err(error) = clip.check_timing()
+    {
+        found.error(source.error(0, format!("the timing cannot be: {error}")));
+    }
     found.errors.is_empty().then_some(clip)
 }
 
@@ -158,24 +162,17 @@ fn direction(value: Placed<'_>, found: &mut Findings) -> Option<DVec3> {
     unit
 }
 
+/// Times must increase, and not by next to nothing.
 fn check_times(source: &Source, keys: &[KeyText<'_>], found: &mut Findings) {
-    for pair in keys.windows(2) {
-        if pair[1].secs <= pair[0].secs {
-            let message = format!(
-                "key at {} s follows one at {} s; times must increase",
-                pair[1].secs, pair[0].secs
-            );
-            found.error(source.error(pair[1].at, message));
-        }
+    for key in keys.iter().filter(|key| key.secs.abs() > SECS_MAX) {
+        let message = format!("key at {} s; times lie within {SECS_MAX} s of 0", key.secs);
+        found.error(source.error(key.at, message));
     }
-}
-
-fn check_edits(source: &Source, clip: &ClipDoc, keys: usize, found: &mut Findings) {
-    let coefficients = keys + 2;
-    for &(index, _) in &clip.coefficient_edits {
-        if index == 0 || index + 1 >= coefficients {
-            let message = format!("`adjust` names coefficient {index}; {keys} keys leave 1 to {keys} free");
-            found.error(source.error(0, message));
+    for pair in keys.windows(2) {
+        if pair[1].secs - pair[0].secs < KEY_GAP_SECS_MIN {
+            let (before, secs) = (pair[0].secs, pair[1].secs);
+            let message = format!("key at {secs} s follows one at {before} s; times must increase");
+            found.error(source.error(pair[1].at, message));
         }
     }
 }

@@ -1,0 +1,267 @@
+//! The desk: what dials, keys and tablet say becomes tokens of the network's device instances.
+//!
+//! Scaling follows `docs/ps300/functions.md`: a dial sends 1.0 for a full turn, clockwise positive; the tablet
+//! sends −1…1 on its longer side, the shorter one centred with the aspect kept, y up.
+
+use device::codec::{InputEvent, PenSample, Surface, Tool};
+use glam::DVec2;
+use ps300::machine::Panel;
+use ps300::value::Value;
+
+use crate::snapshot::DeskView;
+
+/// How long a dial is drawn as live after it moved, seconds.
+const LIVE_SECS: f64 = 0.5;
+
+/// Where a token goes: device instance, output, value.
+pub(crate) type Emit<'a> = dyn FnMut(&'static str, u8, Value) + 'a;
+
+/// What is known about the device an event is from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Source {
+    /// Counts of a dial's full turn.
+    pub(crate) counts_per_turn: f64,
+    /// The tablet's area, if it is one.
+    pub(crate) surface: Option<Surface>,
+}
+
+/// State of the desk.
+#[derive(Debug, Default)]
+pub(crate) struct Desk {
+    view: DeskView,
+    moved_at_secs: [Option<f64>; 8],
+    tablet: Tablet,
+}
+
+#[derive(Debug, Default)]
+struct Tablet {
+    in_range: bool,
+    code: i32,
+}
+
+impl Desk {
+    /// Turns one event into tokens, in the order the original's outputs would have sent them.
+    pub(crate) fn hear(&mut self, event: &InputEvent, source: Source, now_secs: f64, emit: &mut Emit<'_>) {
+        match event {
+            InputEvent::Dial {
+                control,
+                delta_counts,
+            } => {
+                let turns = f64::from(*delta_counts) / source.counts_per_turn;
+                if let (Some(dial), Some(moved)) = (
+                    self.view.dials.get_mut(usize::from(*control)),
+                    self.moved_at_secs.get_mut(usize::from(*control)),
+                ) {
+                    dial.turns += turns;
+                    *moved = Some(now_secs);
+                    emit("DIALS", control + 1, Value::Real(turns));
+                }
+            }
+            InputEvent::Button { control, down } => {
+                let number = i32::from(*control) + 1;
+                if let Some(key) = self.view.keys.get_mut(usize::from(*control)) {
+                    key.down = *down;
+                    if *down {
+                        emit("FKEYS", 1, Value::Integer(number));
+                    }
+                }
+                if *down {
+                    emit("BUTTONSIN", 1, Value::Integer(number));
+                }
+            }
+            InputEvent::Pen(sample) => self.hear_tablet(sample, source.surface, emit),
+            InputEvent::Started | InputEvent::Restarted => {}
+        }
+    }
+
+    fn hear_tablet(&mut self, sample: &PenSample, surface: Option<Surface>, emit: &mut Emit<'_>) {
+        let Some(surface) = surface else { return };
+        if sample.in_range != self.tablet.in_range {
+            self.tablet.in_range = sample.in_range;
+            emit("TABLETIN", 5, Value::Boolean(sample.in_range));
+        }
+        let position = Value::Vector2(tablet_position(sample, surface));
+        if sample.in_range {
+            emit("TABLETIN", 1, position.clone());
+        }
+        let code = button_code(sample);
+        if code == self.tablet.code {
+            return;
+        }
+        let pressed = code & !self.tablet.code != 0;
+        if (code == 0) != (self.tablet.code == 0) {
+            emit("TABLETIN", 2, Value::Boolean(code != 0));
+        }
+        self.tablet.code = code;
+        emit("TABLETIN", 3, Value::Integer(code));
+        if pressed {
+            emit("TABLETIN", 6, position);
+        }
+    }
+
+    /// The desk as it looks now: labels and lamps are the network's.
+    pub(crate) fn view(&self, panel: &Panel, now_secs: f64, simulated_device: Option<String>) -> DeskView {
+        let mut view = self.view.clone();
+        for (index, dial) in view.dials.iter_mut().enumerate() {
+            dial.live = self.moved_at_secs[index].is_some_and(|at| now_secs - at < LIVE_SECS);
+            dial.label.clone_from(&panel.dial_labels[index]);
+        }
+        for (index, key) in view.keys.iter_mut().enumerate() {
+            key.lit = panel.lamps & (1 << index) != 0;
+            key.label.clone_from(&panel.key_labels[index]);
+        }
+        view.simulated_device = simulated_device;
+        view
+    }
+}
+
+/// Buttons as the puck's code: 1, 2, 4, 8. A pen's tip is the first, its barrel buttons follow.
+fn button_code(sample: &PenSample) -> i32 {
+    if !sample.in_range {
+        return 0;
+    }
+    match sample.tool {
+        Tool::Puck => i32::from(sample.buttons & 15),
+        Tool::Pen | Tool::Eraser => i32::from(sample.tip) | i32::from(sample.buttons & 7) << 1,
+    }
+}
+
+fn tablet_position(sample: &PenSample, surface: Surface) -> DVec2 {
+    let inches =
+        |axis: usize| f64::from(surface.max_counts[axis]) / f64::from(surface.counts_per_inch[axis].max(1));
+    let half_long_side = inches(0).max(inches(1)).max(f64::MIN_POSITIVE) / 2.0;
+    let from_middle = |counts: u16, axis: usize| {
+        let share = f64::from(counts) / f64::from(surface.max_counts[axis].max(1));
+        (share - 0.5) * inches(axis) / half_long_side
+    };
+    // Counts grow downwards; `0 − y` rather than `−y`, which would make the middle −0.
+    DVec2::new(
+        from_middle(sample.x_counts, 0),
+        0.0 - from_middle(sample.y_counts, 1),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SURFACE: Surface = Surface {
+        max_counts: [4000, 2000],
+        counts_per_inch: [1000, 1000],
+        pressure_max: 255,
+    };
+    const SOURCE: Source = Source {
+        counts_per_turn: 200.0,
+        surface: Some(SURFACE),
+    };
+
+    fn puck(x_counts: u16, y_counts: u16, buttons: u8, in_range: bool) -> InputEvent {
+        InputEvent::Pen(PenSample {
+            tool: Tool::Puck,
+            x_counts,
+            y_counts,
+            pressure_counts: 0,
+            buttons,
+            in_range,
+            tip: false,
+            tilt: None,
+            wheel: 0,
+        })
+    }
+
+    fn heard(desk: &mut Desk, events: &[InputEvent]) -> Vec<String> {
+        let mut tokens = Vec::new();
+        for event in events {
+            desk.hear(event, SOURCE, 0.0, &mut |name, port, value| {
+                tokens.push(format!("{name}<{port}> {value:?}"))
+            });
+        }
+        tokens
+    }
+
+    #[test]
+    fn a_dial_sends_turns() {
+        let mut desk = Desk::default();
+        let tokens = heard(
+            &mut desk,
+            &[InputEvent::Dial {
+                control: 2,
+                delta_counts: -50,
+            }],
+        );
+        assert_eq!(tokens, ["DIALS<3> Real(-0.25)"]);
+        let at = |secs: f64| desk.view(&Panel::default(), secs, None).dials[2].clone();
+        assert_eq!(at(0.4).turns, -0.25);
+        assert!(at(0.4).live && !at(0.6).live);
+    }
+
+    #[test]
+    fn a_key_sends_its_number_once() {
+        let mut desk = Desk::default();
+        let tokens = heard(
+            &mut desk,
+            &[
+                InputEvent::Button {
+                    control: 3,
+                    down: true,
+                },
+                InputEvent::Button {
+                    control: 3,
+                    down: false,
+                },
+                InputEvent::Button {
+                    control: 20,
+                    down: true,
+                },
+            ],
+        );
+        assert_eq!(
+            tokens,
+            [
+                "FKEYS<1> Integer(4)",
+                "BUTTONSIN<1> Integer(4)",
+                "BUTTONSIN<1> Integer(21)"
+            ]
+        );
+    }
+
+    #[test]
+    fn the_puck_presses_and_leaves() {
+        let mut desk = Desk::default();
+        let tokens = heard(
+            &mut desk,
+            &[
+                puck(4000, 0, 0, true),
+                puck(4000, 0, 2, true),
+                puck(2000, 1000, 0, true),
+                puck(2000, 1000, 0, false),
+            ],
+        );
+        let corner = "Vector2(DVec2(1.0, 0.5))";
+        assert_eq!(
+            tokens,
+            [
+                "TABLETIN<5> Boolean(true)".to_owned(),
+                format!("TABLETIN<1> {corner}"),
+                format!("TABLETIN<1> {corner}"),
+                "TABLETIN<2> Boolean(true)".to_owned(),
+                "TABLETIN<3> Integer(2)".to_owned(),
+                format!("TABLETIN<6> {corner}"),
+                "TABLETIN<1> Vector2(DVec2(0.0, 0.0))".to_owned(),
+                "TABLETIN<2> Boolean(false)".to_owned(),
+                "TABLETIN<3> Integer(0)".to_owned(),
+                "TABLETIN<5> Boolean(false)".to_owned(),
+            ]
+        );
+    }
+
+    #[test]
+    fn labels_and_lamps_are_the_networks() {
+        let mut panel = Panel::default();
+        panel.dial_labels[1] = "Tilt".into();
+        panel.lamps = 2;
+        let view = Desk::default().view(&panel, 0.0, None);
+        assert_eq!(view.dials[1].label, "Tilt");
+        assert!(view.keys[1].lit && !view.keys[0].lit);
+    }
+}

@@ -1,0 +1,281 @@
+//! The input devices of the rig: opened by address, polled in the order of their names, looked for again when
+//! they are gone.
+
+use std::time::Duration;
+
+use device::clock::Instant;
+use device::codec::{Feedback, InputEvent, Stamped};
+use device::transport::{Transport, TransportError};
+use device::{Device, Health, UnknownFormat};
+use device_profiles::{ProfileError, Profiles};
+
+use crate::desk::Source;
+use crate::ports::Ports;
+use crate::snapshot::{DeviceHealth, DeviceView};
+
+/// How often a device that is gone is looked for. Without a monitor of the system's own, once a second is what
+/// comparable drivers do.
+const LOOK_AGAIN: Duration = Duration::from_secs(1);
+
+/// An input device to be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputSpec {
+    /// What the rig calls it.
+    pub name: String,
+    /// Key of a knob box's or tablet's profile.
+    pub profile: String,
+    /// Where to open it.
+    pub address: String,
+}
+
+/// A device cannot be used as described.
+#[derive(Debug, thiserror::Error)]
+pub enum InputError {
+    /// No such profile; the message lists what there is.
+    #[error("input {name}: {source}")]
+    Profile {
+        /// The device.
+        name: String,
+        /// Why.
+        source: ProfileError,
+    },
+    /// Two devices of one name.
+    #[error("two inputs are called {name}; names must differ")]
+    Twice {
+        /// The name.
+        name: String,
+    },
+}
+
+/// All input devices.
+pub(crate) struct Inputs {
+    seats: Vec<Seat>,
+    heard: Vec<Stamped<InputEvent>>,
+}
+
+struct Seat {
+    spec: InputSpec,
+    make: Make,
+    baud: u32,
+    counts_per_turn: f64,
+    dials: u8,
+    device: Option<Device>,
+    health: DeviceHealth,
+    events: u64,
+    look_at: Instant,
+    shown: Shown,
+}
+
+/// What the device was last told to show, so that only changes go out.
+#[derive(Default)]
+struct Shown {
+    lamps: u32,
+    labels: Vec<String>,
+}
+
+type Make = Box<dyn Fn(Box<dyn Transport>) -> Result<Device, UnknownFormat> + Send>;
+
+/// What became of a device during a poll, for the person at the rig.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Change {
+    Came(String),
+    Gone(String),
+}
+
+impl Inputs {
+    pub(crate) fn new(mut specs: Vec<InputSpec>, profiles: &Profiles) -> Result<Self, InputError> {
+        specs.sort_by(|a, b| a.name.cmp(&b.name));
+        if let Some(pair) = specs.windows(2).find(|pair| pair[0].name == pair[1].name) {
+            return Err(InputError::Twice {
+                name: pair[0].name.clone(),
+            });
+        }
+        let seats = specs
+            .into_iter()
+            .map(|spec| Seat::new(spec, profiles))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            seats,
+            heard: Vec::new(),
+        })
+    }
+
+    /// Polls every device in order; `hear` gets each event with what is known of its device.
+    pub(crate) fn poll(
+        &mut self,
+        now: Instant,
+        ports: &mut dyn Ports,
+        hear: &mut dyn FnMut(&InputEvent, Source),
+        noticed: &mut dyn FnMut(Change),
+    ) {
+        for seat in &mut self.seats {
+            self.heard.clear();
+            seat.poll(now, ports, &mut self.heard, noticed);
+            let source = seat.source();
+            for event in &self.heard {
+                seat.events += 1;
+                hear(&event.what, source);
+            }
+        }
+    }
+
+    /// Tells every device what the desk shows.
+    pub(crate) fn show<'a>(&mut self, lamps: u32, labels: impl Iterator<Item = &'a str> + Clone) {
+        for seat in &mut self.seats {
+            seat.show(lamps, labels.clone());
+        }
+    }
+
+    pub(crate) fn view(&self) -> Vec<DeviceView> {
+        self.seats.iter().map(Seat::view).collect()
+    }
+
+    /// Where the device of that name was opened.
+    pub(crate) fn address(&self, name: &str) -> Option<&str> {
+        self.seats
+            .iter()
+            .find(|s| s.spec.name == name)
+            .map(|s| s.spec.address.as_str())
+    }
+
+    /// The first dial box at a simulated address: what a hand on the desk's picture touches.
+    pub(crate) fn simulated_desk(&self) -> Option<String> {
+        let seat = self
+            .seats
+            .iter()
+            .find(|s| s.dials > 0 && s.spec.address.starts_with("sim:"))?;
+        Some(seat.spec.name.clone())
+    }
+}
+
+impl Seat {
+    fn new(spec: InputSpec, profiles: &Profiles) -> Result<Self, InputError> {
+        let name = spec.name.clone();
+        let (make, baud, counts_per_turn, dials): (Make, u32, f64, u8) = match profiles.knobs(&spec.profile) {
+            Ok(knobs) => {
+                let profile = knobs.clone();
+                let make: Make = Box::new(move |line| Device::knobs(name.clone(), &profile, line));
+                (make, knobs.baud, f64::from(knobs.counts_per_turn), knobs.dials)
+            }
+            Err(_) => {
+                let tablet = profiles
+                    .tablet(&spec.profile)
+                    .map_err(|source| InputError::Profile {
+                        name: spec.name.clone(),
+                        source,
+                    })?;
+                let profile = tablet.clone();
+                let make: Make = Box::new(move |line| Device::tablet(name.clone(), &profile, line));
+                (make, tablet.baud, 1.0, 0)
+            }
+        };
+        Ok(Self {
+            spec,
+            make,
+            baud,
+            counts_per_turn,
+            dials,
+            device: None,
+            health: DeviceHealth::Lost,
+            events: 0,
+            look_at: Instant::ZERO,
+            shown: Shown::default(),
+        })
+    }
+
+    fn poll(
+        &mut self,
+        now: Instant,
+        ports: &mut dyn Ports,
+        heard: &mut Vec<Stamped<InputEvent>>,
+        noticed: &mut dyn FnMut(Change),
+    ) {
+        if self.health == DeviceHealth::Lost && now >= self.look_at {
+            self.look_at = now.after(LOOK_AGAIN);
+            match ports.open(&self.spec.address, self.baud) {
+                Ok(line) => self.take(line),
+                Err(error) => noticed(Change::Gone(format!("{}: {error}", self.spec.name))),
+            }
+        }
+        let Some(device) = &mut self.device else { return };
+        if self.health == DeviceHealth::Lost {
+            return;
+        }
+        let health = match device.poll(now, heard) {
+            Health::Present => DeviceHealth::Present,
+            Health::Silent { .. } => DeviceHealth::Starting,
+            Health::Lost => DeviceHealth::Lost,
+        };
+        if health != self.health {
+            match health {
+                DeviceHealth::Present => noticed(Change::Came(self.spec.name.clone())),
+                DeviceHealth::Lost => {
+                    let why = device.lost().map(TransportError::to_string).unwrap_or_default();
+                    noticed(Change::Gone(format!("{}: {why}", self.spec.name)));
+                    self.look_at = now.after(LOOK_AGAIN);
+                }
+                DeviceHealth::Starting => {}
+            }
+            self.health = health;
+        }
+    }
+
+    fn take(&mut self, line: Box<dyn Transport>) {
+        self.health = DeviceHealth::Starting;
+        match &mut self.device {
+            Some(device) => device.reconnect(line),
+            // The format was checked when the profile was read, so a device can be made; if a user's profile
+            // names an unknown one, the seat stays empty and says so once a second.
+            None => match (self.make)(line) {
+                Ok(device) => self.device = Some(device),
+                Err(error) => {
+                    tracing::error!("{error}");
+                    self.health = DeviceHealth::Lost;
+                }
+            },
+        }
+    }
+
+    fn show<'a>(&mut self, lamps: u32, labels: impl Iterator<Item = &'a str>) {
+        let Some(device) = &mut self.device else { return };
+        if self.dials == 0 {
+            return;
+        }
+        if lamps != self.shown.lamps {
+            self.shown.lamps = lamps;
+            // A line that is gone is found out by the next poll.
+            let _ = device.show(&Feedback::Lamps(lamps));
+        }
+        for (control, label) in labels.enumerate() {
+            if self.shown.labels.len() == control {
+                self.shown.labels.push(String::new());
+            }
+            if self.shown.labels[control] != label {
+                label.clone_into(&mut self.shown.labels[control]);
+                let _ = device.show(&Feedback::Label {
+                    control: control as u8,
+                    text: label.to_owned(),
+                });
+            }
+        }
+    }
+
+    fn source(&self) -> Source {
+        Source {
+            counts_per_turn: self.counts_per_turn,
+            surface: self.device.as_ref().and_then(Device::surface),
+        }
+    }
+
+    fn view(&self) -> DeviceView {
+        let counters = self.device.as_ref().map(Device::counters).unwrap_or_default();
+        DeviceView {
+            name: self.spec.name.clone(),
+            profile: self.spec.profile.clone(),
+            address: self.spec.address.clone(),
+            health: self.health,
+            events: self.events,
+            rejected: counters.unknown + counters.rejected,
+        }
+    }
+}

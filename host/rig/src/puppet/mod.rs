@@ -1,0 +1,251 @@
+//! The puppet's seat in the rig: its lines, its player, and what it is asked to play.
+//!
+//! Whatever the show wants goes through a [`player::Player`]; the rig never touches a servo. In virtual time the
+//! player is ticked by the step itself; in real time it has a thread of its own, which nothing here can hold up.
+
+mod body;
+mod runner;
+mod view;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+use device::clock::{Clock, Instant};
+use device_profiles::{ProfileError, Profiles, PuppetProfile};
+use motion::clip::Clip;
+use motion::{JointClip, Placed};
+use player::{Order, PlayerConfig, Puppet, PuppetError};
+
+pub use body::{Body, BodyError, Follower, RestFrames};
+use runner::{Line, Runner};
+
+use crate::command::PuppetCommand;
+use crate::document::FigureDoc;
+use crate::ports::Ports;
+use crate::snapshot::{NoteLevel, PuppetView, TransportView};
+
+/// How often lines that could not be opened are tried again.
+const LOOK_AGAIN: Duration = Duration::from_secs(1);
+/// Step of baked joint angles; between them the player interpolates smoothly.
+const BAKE_PERIOD_SECS: f64 = 0.01;
+
+/// The puppet to drive.
+#[derive(Clone, Debug)]
+pub struct PuppetSpec {
+    /// Key of a puppet profile.
+    pub profile: String,
+    /// Where each of its buses is: bus name to address.
+    pub ports: BTreeMap<String, String>,
+    /// How it is played.
+    pub config: PlayerConfig,
+    /// Who ticks the player.
+    pub pace: Pace,
+}
+
+/// Who ticks the player.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// Each step of the rig ticks it once: virtual time, and everything in one journal.
+    WithTheRig,
+    /// A thread of its own at the configured period: real time.
+    OwnThread,
+}
+
+/// A puppet cannot be driven as described.
+#[derive(Debug, thiserror::Error)]
+pub enum PuppetSetupError {
+    /// No such profile; the message lists what there is.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The profile does not fit its servos.
+    #[error(transparent)]
+    Puppet(#[from] PuppetError),
+    /// A bus has no address.
+    #[error("puppet {puppet} needs an address for its bus \"{bus}\"; give one `--port` for each of: {buses}")]
+    NoAddress {
+        /// The puppet.
+        puppet: String,
+        /// The bus.
+        bus: String,
+        /// All its buses.
+        buses: String,
+    },
+}
+
+/// The puppet's seat.
+pub(crate) struct Seat {
+    profile: PuppetProfile,
+    puppet: Puppet,
+    lines: Vec<Line>,
+    spec: PuppetSpec,
+    clock: Arc<dyn Clock>,
+    runner: Runner,
+    body: Option<Body>,
+    follower: Option<Follower>,
+    baked: Option<(Arc<Clip>, Arc<JointClip>)>,
+    look_at: Instant,
+    remarks: Vec<(NoteLevel, String)>,
+}
+
+impl Seat {
+    pub(crate) fn new(
+        spec: PuppetSpec,
+        profiles: &Profiles,
+        clock: Arc<dyn Clock>,
+    ) -> Result<Self, PuppetSetupError> {
+        let profile = profiles.puppet(&spec.profile)?.clone();
+        let puppet = Puppet::new(&profile, profiles)?;
+        let lines = puppet
+            .buses()
+            .iter()
+            .map(|bus| match spec.ports.get(&bus.name) {
+                Some(address) => Ok(Line {
+                    bus: bus.name.clone(),
+                    address: address.clone(),
+                    baud: bus.baud,
+                }),
+                None => Err(PuppetSetupError::NoAddress {
+                    puppet: profile.name.clone(),
+                    bus: bus.name.clone(),
+                    buses: puppet
+                        .buses()
+                        .iter()
+                        .map(|b| b.name.as_str())
+                        .collect::<Vec<_>>()
+                        .join(", "),
+                }),
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            profile,
+            puppet,
+            lines,
+            spec,
+            clock,
+            runner: Runner::Waiting,
+            body: None,
+            follower: None,
+            baked: None,
+            look_at: Instant::ZERO,
+            remarks: Vec::new(),
+        })
+    }
+
+    /// Lets the puppet follow the show's figure from now on.
+    pub(crate) fn lead_by(&mut self, figure: &FigureDoc) -> Result<(), BodyError> {
+        let rest = figure.rest_frames();
+        self.body = None;
+        self.baked = None;
+        self.follower = None;
+        self.body = Some(Body::new(&self.profile, &figure.figure, rest.as_deref())?);
+        Ok(())
+    }
+
+    /// Passes an order on, or says why not.
+    pub(crate) fn order(
+        &mut self,
+        order: &PuppetCommand,
+        clip: Option<&Arc<Clip>>,
+        timeline: &TransportView,
+    ) -> Result<(), String> {
+        if *order != PuppetCommand::Follow {
+            self.follower = None;
+        }
+        let order = match order {
+            PuppetCommand::Arm => Order::Arm,
+            PuppetCommand::Play => self.play(clip, timeline)?,
+            PuppetCommand::Follow => {
+                let body = self.body.as_ref().ok_or("the puppet has no figure to follow")?;
+                self.follower = Some(Follower::new(body));
+                return Ok(());
+            }
+            PuppetCommand::Hold => Order::Hold,
+            PuppetCommand::Release => Order::Release,
+            PuppetCommand::Stop => Order::Stop,
+            PuppetCommand::Reset => Order::Reset,
+        };
+        self.runner
+            .order(order)
+            .map_err(|()| format!("puppet {}: {}", self.profile.name, self.missing()))
+    }
+
+    fn missing(&self) -> String {
+        let addresses: Vec<_> = self.lines.iter().map(|l| l.address.as_str()).collect();
+        format!(
+            "its lines are not open ({}); it is looked for once a second",
+            addresses.join(", ")
+        )
+    }
+
+    fn play(&mut self, clip: Option<&Arc<Clip>>, timeline: &TransportView) -> Result<Order, String> {
+        let clip = clip.ok_or("there is no clip to play; store keys first")?;
+        let body = self.body.as_ref().ok_or("the puppet has no figure to follow")?;
+        let baked = match &self.baked {
+            Some((of, baked)) if Arc::ptr_eq(of, clip) => Arc::clone(baked),
+            _ => {
+                let (baked, error_rad) = body
+                    .bake(clip, BAKE_PERIOD_SECS)
+                    .map_err(|error| error.to_string())?;
+                let words = format!(
+                    "puppet {}: follows within {:.1} degrees of the figure",
+                    self.profile.name,
+                    error_rad.to_degrees()
+                );
+                self.remarks.push((NoteLevel::Info, words));
+                let baked = Arc::new(baked);
+                self.baked = Some((Arc::clone(clip), Arc::clone(&baked)));
+                baked
+            }
+        };
+        let at_end = timeline.secs >= timeline.end_secs;
+        let from_secs = if at_end {
+            0.0
+        } else {
+            (timeline.secs - timeline.start_secs).max(0.0)
+        };
+        Ok(Order::Play {
+            clip: baked,
+            from_secs,
+            speed: timeline.speed,
+            looped: timeline.looped,
+        })
+    }
+
+    /// The figure's pose now, for a puppet that follows it live.
+    pub(crate) fn follow(&mut self, placed: &[Placed]) {
+        if let Some(follower) = &mut self.follower {
+            let angles: Arc<[f64]> = follower.follow(placed).into();
+            // A full queue means a newer pose is on its way anyway.
+            let _ = self.runner.order(Order::Follow(angles));
+        }
+    }
+
+    /// One step: opens lines that are missing, ticks the player if the rig does, and says what happened.
+    pub(crate) fn advance(&mut self, now: Instant, ports: &mut dyn Ports) -> Vec<(NoteLevel, String)> {
+        if matches!(self.runner, Runner::Waiting) && now >= self.look_at {
+            self.look_at = now.after(LOOK_AGAIN);
+            match runner::open(&self.puppet, &self.lines, ports, &self.spec.config) {
+                Ok(player) => self.runner = Runner::start(player, self.spec.pace, &self.clock),
+                Err(why) => self
+                    .remarks
+                    .push((NoteLevel::Warning, format!("puppet {}: {why}", self.profile.name))),
+            }
+        }
+        self.runner.advance(now, &self.lines, ports, &mut self.remarks);
+        std::mem::take(&mut self.remarks)
+    }
+
+    pub(crate) fn view(&self, now: Instant) -> PuppetView {
+        let waiting = self.missing();
+        let mut seen = None;
+        self.runner
+            .report(&mut |report| seen = Some(view::of(&self.profile, report, now)));
+        seen.unwrap_or_else(|| view::absent(&self.profile, waiting))
+    }
+
+    /// Stops and lets go. Returns whether torque is known to be off.
+    pub(crate) fn close(&mut self, clock: &dyn Clock) -> bool {
+        std::mem::replace(&mut self.runner, Runner::Waiting).close(clock)
+    }
+}

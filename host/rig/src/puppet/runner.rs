@@ -1,0 +1,334 @@
+//! Who ticks the player: the rig's own step, or a thread that nothing else can hold up.
+
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use crossbeam_channel::{Receiver, Sender, TryRecvError, bounded};
+use device::clock::{Clock, Instant};
+use device::transport::Transport;
+use player::{Fault, Order, Player, PlayerConfig, Puppet, Report, State};
+
+use super::Pace;
+use crate::ports::Ports;
+use crate::snapshot::NoteLevel;
+
+/// Orders that may wait for the player; a person gives a few a second, a live pose a hundred.
+const ORDERS_MAX: usize = 64;
+/// Longest wait for joints to stand and torque to go off when the rig closes.
+const CLOSE_MAX: Duration = Duration::from_secs(5);
+
+/// One serial line of the puppet.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    pub(super) bus: String,
+    pub(super) address: String,
+    pub(super) baud: u32,
+}
+
+/// The player and who ticks it.
+pub(super) enum Runner {
+    /// Not all lines are open yet.
+    Waiting,
+    /// Ticked by the rig's step.
+    Inline(Box<Inline>),
+    /// On a thread of its own.
+    Threaded(Threaded),
+}
+
+pub(super) struct Inline {
+    player: Player,
+    orders: Vec<Order>,
+    told: Told,
+}
+
+pub(super) struct Threaded {
+    messages: Sender<Message>,
+    seen: Arc<Mutex<Seen>>,
+    thread: Option<JoinHandle<()>>,
+    told: Told,
+}
+
+enum Message {
+    Order(Order),
+    Reconnect(String, Box<dyn Transport>),
+    End,
+}
+
+/// What the thread shows to the others: a copy of its latest report.
+#[derive(Default)]
+struct Seen {
+    report: Report,
+    refusals: Vec<String>,
+    /// Counts refusals, so that each is told once.
+    refused: u64,
+}
+
+/// What the person has been told already.
+#[derive(Default)]
+struct Told {
+    faulted: bool,
+    refused: u64,
+    rejected: Option<String>,
+}
+
+/// Opens all lines and seats the player, or says which line failed.
+pub(super) fn open(
+    puppet: &Puppet,
+    lines: &[Line],
+    ports: &mut dyn Ports,
+    config: &PlayerConfig,
+) -> Result<Player, String> {
+    let buses = lines
+        .iter()
+        .map(|line| {
+            let transport = ports
+                .open(&line.address, line.baud)
+                .map_err(|error| error.to_string())?;
+            puppet
+                .connect(&line.bus, transport)
+                .map_err(|error| error.to_string())
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    Player::new(puppet.clone(), buses, config.clone()).map_err(|error| error.to_string())
+}
+
+impl Runner {
+    pub(super) fn start(player: Player, pace: Pace, clock: &Arc<dyn Clock>) -> Self {
+        match pace {
+            Pace::WithTheRig => Self::Inline(Box::new(Inline {
+                player,
+                orders: Vec::new(),
+                told: Told::default(),
+            })),
+            Pace::OwnThread => Self::Threaded(Threaded::start(player, Arc::clone(clock))),
+        }
+    }
+
+    /// Hands an order over; fails when nobody is there to take it.
+    pub(super) fn order(&mut self, order: Order) -> Result<(), ()> {
+        match self {
+            Self::Waiting => Err(()),
+            Self::Inline(inline) if inline.orders.len() < ORDERS_MAX => {
+                inline.orders.push(order);
+                Ok(())
+            }
+            Self::Inline(_) => Err(()),
+            Self::Threaded(threaded) => threaded.messages.try_send(Message::Order(order)).map_err(|_| ()),
+        }
+    }
+
+    pub(super) fn report(&self, look: &mut dyn FnMut(&Report)) {
+        match self {
+            Self::Waiting => {}
+            Self::Inline(inline) => look(inline.player.report()),
+            Self::Threaded(threaded) => look(
+                &threaded
+                    .seen
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner)
+                    .report,
+            ),
+        }
+    }
+
+    /// Ticks the player if it is the rig's to tick, brings lost lines back when a reset asks for it, and
+    /// collects what a person should know.
+    pub(super) fn advance(
+        &mut self,
+        now: Instant,
+        lines: &[Line],
+        ports: &mut dyn Ports,
+        remarks: &mut Vec<(NoteLevel, String)>,
+    ) {
+        match self {
+            Self::Waiting => {}
+            Self::Inline(inline) => {
+                if inline.orders.iter().any(|order| matches!(order, Order::Reset))
+                    && let Some(line) = lost_line(inline.player.state(), lines)
+                {
+                    let back = ports
+                        .open(&line.address, line.baud)
+                        .map_err(|error| error.to_string());
+                    let back =
+                        back.and_then(|t| inline.player.reconnect(&line.bus, t).map_err(|e| e.to_string()));
+                    if let Err(why) = back {
+                        remarks.push((NoteLevel::Warning, why));
+                    }
+                }
+                let report = inline.player.tick(now, &mut inline.orders.drain(..));
+                inline.told.about(report, remarks);
+                if report.arming_refused {
+                    let refusals = inline.player.refusals().map(|refusal| refusal.to_string());
+                    remarks.extend(refusals.map(|refusal| (NoteLevel::Warning, refusal)));
+                }
+            }
+            Self::Threaded(threaded) => threaded.tell(lines, ports, remarks),
+        }
+    }
+
+    /// Stops and lets go. Returns whether torque is known to be off.
+    pub(super) fn close(self, clock: &dyn Clock) -> bool {
+        match self {
+            Self::Waiting => true,
+            Self::Inline(mut inline) => {
+                let mut off = false;
+                let began = clock.now();
+                let mut orders = vec![Order::Stop];
+                while !off && clock.now().since(began) < CLOSE_MAX {
+                    let report = inline.player.tick(clock.now(), &mut orders.drain(..));
+                    off = !report.torque;
+                    clock.sleep_until(clock.now().after(inline.player.config().period));
+                }
+                off
+            }
+            Self::Threaded(mut threaded) => {
+                // The thread stops the player before it ends, whatever made it end.
+                let _ = threaded
+                    .messages
+                    .send_timeout(Message::End, Duration::from_secs(1));
+                if let Some(thread) = threaded.thread.take() {
+                    let _ = thread.join();
+                }
+                !threaded
+                    .seen
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner)
+                    .report
+                    .torque
+            }
+        }
+    }
+}
+
+/// The line whose loss is the player's fault, if that is what it is.
+fn lost_line<'a>(state: &State, lines: &'a [Line]) -> Option<&'a Line> {
+    let State::Faulted(Fault::BusLost { bus, .. }) = state else {
+        return None;
+    };
+    lines.iter().find(|line| line.bus == *bus)
+}
+
+impl Told {
+    fn about(&mut self, report: &Report, remarks: &mut Vec<(NoteLevel, String)>) {
+        let faulted = matches!(report.state, State::Faulted(_));
+        if let (State::Faulted(fault), false) = (&report.state, self.faulted) {
+            remarks.push((NoteLevel::Error, format!("puppet stopped: {fault}")));
+        }
+        self.faulted = faulted;
+        let rejected = report.rejected.as_ref().map(ToString::to_string);
+        if let Some(why) = rejected
+            .as_ref()
+            .filter(|why| self.rejected.as_ref() != Some(why))
+        {
+            remarks.push((NoteLevel::Warning, format!("puppet: {why}")));
+        }
+        self.rejected = rejected;
+    }
+}
+
+impl Threaded {
+    fn start(player: Player, clock: Arc<dyn Clock>) -> Self {
+        let (messages, inbox) = bounded(ORDERS_MAX);
+        let seen = Arc::new(Mutex::new(Seen::default()));
+        let shown = Arc::clone(&seen);
+        let thread = std::thread::Builder::new()
+            .name("puppet".into())
+            .spawn(move || live(player, &*clock, &inbox, &shown))
+            .map_err(|error| tracing::error!("the puppet's thread did not start: {error}"))
+            .ok();
+        Self {
+            messages,
+            seen,
+            thread,
+            told: Told::default(),
+        }
+    }
+
+    fn tell(&mut self, lines: &[Line], ports: &mut dyn Ports, remarks: &mut Vec<(NoteLevel, String)>) {
+        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        self.told.about(&seen.report, remarks);
+        if seen.refused != self.told.refused {
+            self.told.refused = seen.refused;
+            remarks.extend(seen.refusals.iter().map(|why| (NoteLevel::Warning, why.clone())));
+        }
+        let lost = lost_line(&seen.report.state, lines).cloned();
+        drop(seen);
+        // A line that is back is given to the player at once; it stays faulted until the reset.
+        if let Some(line) = lost
+            && let Ok(transport) = ports.open(&line.address, line.baud)
+        {
+            let _ = self.messages.try_send(Message::Reconnect(line.bus, transport));
+        }
+    }
+}
+
+/// The thread: runs the player until the end is asked for, pausing only to take a line back.
+fn live(mut player: Player, clock: &dyn Clock, inbox: &Receiver<Message>, seen: &Mutex<Seen>) {
+    let period = player.config().period;
+    loop {
+        let mut returned: Option<(String, Box<dyn Transport>)> = None;
+        let mut ended = false;
+        let flow = std::cell::Cell::new(false);
+        player::run(
+            &mut player,
+            clock,
+            period,
+            &mut || match inbox.try_recv() {
+                Ok(Message::Order(order)) => Some(order),
+                Ok(Message::Reconnect(bus, line)) => {
+                    returned = Some((bus, line));
+                    flow.set(true);
+                    None
+                }
+                Ok(Message::End) | Err(TryRecvError::Disconnected) => {
+                    ended = true;
+                    flow.set(true);
+                    None
+                }
+                Err(TryRecvError::Empty) => None,
+            },
+            &mut |report| {
+                show(report, seen);
+                if flow.get() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            },
+        );
+        if let Some((bus, line)) = returned
+            && let Err(error) = player.reconnect(&bus, line)
+        {
+            tracing::warn!("{error}");
+        }
+        if ended {
+            show(player.report(), seen);
+            return;
+        }
+    }
+}
+
+/// Copies the report for others without waiting for them: a reader at this moment sees the one before.
+fn show(report: &Report, seen: &Mutex<Seen>) {
+    let Ok(mut seen) = seen.try_lock() else { return };
+    let joints = std::mem::take(&mut seen.report.joints);
+    seen.report = Report {
+        joints,
+        ..report_without_joints(report)
+    };
+    seen.report.joints.clone_from(&report.joints);
+    if report.arming_refused {
+        seen.refused += 1;
+    }
+}
+
+fn report_without_joints(report: &Report) -> Report {
+    Report {
+        joints: Vec::new(),
+        state: report.state.clone(),
+        rejected: report.rejected.clone(),
+        ..*report
+    }
+}

@@ -1,0 +1,71 @@
+//! The puppet as snapshots show it.
+
+use device::clock::Instant;
+use device::servo::Presence;
+use device::servo::member::error_names;
+use device_profiles::{PuppetJoint, PuppetProfile};
+use player::{JointReport, Report, State};
+
+use crate::snapshot::{JointView, PuppetState, PuppetView};
+
+/// A puppet that has a player.
+pub(super) fn of(profile: &PuppetProfile, report: &Report, now: Instant) -> PuppetView {
+    let (state, fault) = match &report.state {
+        State::Released => (PuppetState::Released, None),
+        State::Arming => (PuppetState::Arming, None),
+        State::Holding => (PuppetState::Holding, None),
+        State::Playing => (PuppetState::Playing, None),
+        State::Faulted(fault) => (PuppetState::Faulted, Some(fault.to_string())),
+    };
+    let joints = profile
+        .joints()
+        .zip(&report.joints)
+        .map(|(joint, report)| seen(joint, report, now))
+        .collect();
+    PuppetView {
+        name: profile.name.clone(),
+        state,
+        fault,
+        joints,
+        clip_secs: report.clip_secs,
+        stale_discarded: report.stale_discarded,
+        interventions: report.interventions.total(),
+        late_cycles: report.late_ticks,
+        torque: report.torque,
+        goals_sent: report.goals_sent,
+    }
+}
+
+/// A puppet whose lines are not open.
+pub(super) fn absent(profile: &PuppetProfile, why: String) -> PuppetView {
+    let joints = profile
+        .joints()
+        .map(|joint| JointView {
+            name: joint.name.clone(),
+            range_rad: [joint.min_rad, joint.max_rad],
+            ..JointView::default()
+        })
+        .collect();
+    PuppetView {
+        name: profile.name.clone(),
+        fault: Some(why),
+        joints,
+        ..PuppetView::default()
+    }
+}
+
+fn seen(joint: &PuppetJoint, report: &JointReport, now: Instant) -> JointView {
+    JointView {
+        name: joint.name.clone(),
+        goal_rad: report.goal_rad,
+        measured_rad: report.measured_rad,
+        age_secs: report
+            .measured_at
+            .map_or(f64::INFINITY, |at| now.since(at).as_secs_f64()),
+        range_rad: [joint.min_rad, joint.max_rad],
+        temperature_c: report.temperature_c,
+        voltage_v: report.voltage_v,
+        present: matches!(report.presence, Some(Presence::Present)),
+        error: (report.error_bits != 0).then(|| error_names(report.error_bits)),
+    }
+}

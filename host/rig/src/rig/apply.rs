@@ -1,0 +1,204 @@
+//! Doing what is asked: every command and every request of the network ends here.
+
+use std::sync::Arc;
+
+use super::Rig;
+use crate::command::{Command, EditCommand, PoseCommand, PuppetCommand, ViewCommand};
+use crate::document;
+use crate::parameters::Request;
+use crate::snapshot::NoteLevel;
+use crate::wiring::Wiring;
+
+/// A pause this long ends a movement of the hand: later changes are a step of undo of their own, seconds.
+const GESTURE_PAUSE_SECS: f64 = 1.0;
+/// Unsaved changes are kept aside this often, seconds.
+const AUTOSAVE_SECS: f64 = 20.0;
+
+impl Rig {
+    pub(super) fn apply(&mut self, command: &Command) {
+        let done = match command {
+            Command::Network(text) => self.patch(text),
+            Command::Touch { device, touch } => self.touch(device, touch),
+            Command::Pose(PoseCommand::FromClip) => {
+                self.show_clip();
+                Ok(())
+            }
+            Command::Pose(pose) => self.pose(pose),
+            Command::Edit(edit) => self.edit(edit),
+            Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
+            Command::Transport(transport) => self.timeline.apply(transport).map(|moved| {
+                if moved {
+                    self.show_clip_where_it_runs(transport);
+                }
+            }),
+            Command::View(ViewCommand::Reset) => {
+                self.reset_view();
+                Ok(())
+            }
+            Command::View(view) => self.view.apply(view),
+            Command::Puppet(order) => self.order_puppet(order),
+            Command::Save => self.save(),
+        };
+        if let Err(why) = done {
+            self.note(NoteLevel::Warning, why);
+        }
+    }
+
+    pub(super) fn apply_request(&mut self, request: Request) {
+        match request {
+            Request::Command(command) => self.apply(&command),
+            Request::StoreKey => {
+                let secs = self.timeline.secs();
+                self.apply(&Command::Edit(EditCommand::StoreKey { secs }));
+            }
+            Request::DeleteKey => match self.timeline.key_here() {
+                Some(key) => self.apply(&Command::Edit(EditCommand::DeleteKey { key })),
+                None => self.note(
+                    NoteLevel::Warning,
+                    "there is no key at this time; go to one first",
+                ),
+            },
+            Request::KineticStep(step) => {
+                let last = self.kinetics_view.coefficients.len().saturating_sub(2).max(1);
+                let at = (self.coefficient as i64).saturating_add(i64::from(step));
+                self.coefficient = at.clamp(1, last as i64) as usize;
+            }
+            Request::KineticBy(by) => {
+                let coefficient = self.coefficient;
+                self.apply(&Command::Edit(EditCommand::Kinetics { coefficient, by }));
+            }
+        }
+    }
+
+    /// Seeking inside the clip shows the clip. Outside it there is nothing to see but the held end, so a pose
+    /// set up by hand stays, to be stored as a key there.
+    fn show_clip_where_it_runs(&mut self, command: &crate::command::TransportCommand) {
+        use crate::command::TransportCommand::{Nudge, Seek};
+        let t = self.timeline.view();
+        let inside = (t.start_secs..=t.end_secs).contains(&t.secs);
+        let by_hand = self.stage.as_ref().is_some_and(crate::stage::Stage::posing);
+        if inside || !by_hand || !matches!(command, Seek { .. } | Nudge { .. }) {
+            self.show_clip();
+        }
+    }
+
+    fn patch(&mut self, text: &str) -> Result<(), String> {
+        let remarks = self.wiring.execute(text);
+        let show = self.history.present().with_patch(text);
+        self.change(show, "network commands".into(), None);
+        if remarks.is_empty() {
+            Ok(())
+        } else {
+            Err(remarks.join("; "))
+        }
+    }
+
+    fn touch(&mut self, device: &str, touch: &crate::command::Touch) -> Result<(), String> {
+        let address = self.inputs.address(device).unwrap_or(device).to_owned();
+        self.ports
+            .touch(&address, touch)
+            .map_err(|error| error.to_string())
+    }
+
+    fn pose(&mut self, pose: &PoseCommand) -> Result<(), String> {
+        let view = self.view.posing_view();
+        match &mut self.stage {
+            Some(stage) => stage.apply(pose, &view),
+            None => Err("this show has no figure to pose".into()),
+        }
+    }
+
+    fn edit(&mut self, edit: &EditCommand) -> Result<(), String> {
+        let pose = self.stage.as_ref().map(|stage| stage.pose().clone());
+        let edited =
+            document::apply(self.history.present(), edit, pose.as_ref()).map_err(|e| e.to_string())?;
+        if matches!(edit, EditCommand::StoreKey { .. })
+            && let Some(stage) = &mut self.stage
+        {
+            stage.stored();
+        }
+        self.change(edited.show, edited.words, edited.gesture);
+        self.set_clip();
+        Ok(())
+    }
+
+    fn change(&mut self, show: document::Show, words: String, gesture: Option<String>) {
+        let now_secs = self.secs();
+        if now_secs - self.edited_at_secs > GESTURE_PAUSE_SECS {
+            self.history.end_gesture();
+        }
+        self.edited_at_secs = now_secs;
+        self.history.push(show, words, gesture);
+    }
+
+    fn undo(&mut self) -> Result<(), String> {
+        let before = Arc::clone(self.history.present());
+        self.history.undo().ok_or("there is nothing to undo")?;
+        self.changed_from(&before);
+        Ok(())
+    }
+
+    fn redo(&mut self) -> Result<(), String> {
+        let before = Arc::clone(self.history.present());
+        self.history.redo().ok_or("there is nothing to redo")?;
+        self.changed_from(&before);
+        Ok(())
+    }
+
+    /// Takes over a show that undo or redo brought back, touching only what differs.
+    fn changed_from(&mut self, before: &document::Show) {
+        let show = Arc::clone(self.history.present());
+        if show.patches != before.patches || show.networks != before.networks {
+            let (wiring, remarks) = Wiring::load(&show);
+            self.wiring = wiring;
+            for remark in remarks {
+                self.note(NoteLevel::Warning, remark);
+            }
+        }
+        if show.figure != before.figure {
+            self.set_stage();
+        }
+        if let Some(stage) = &mut self.stage {
+            // What was undone is to be seen.
+            stage.stored();
+        }
+        self.set_clip();
+    }
+
+    fn order_puppet(&mut self, order: &PuppetCommand) -> Result<(), String> {
+        let Some(puppet) = &mut self.puppet else {
+            return Err("this show has no puppet; name one in show.toml or with --puppet".into());
+        };
+        puppet.order(order, self.clip.as_ref(), self.timeline.view())
+    }
+
+    fn save(&mut self) -> Result<(), String> {
+        let Some(folder) = &self.folder else {
+            return Err("this show has no folder yet; start dialrig with one".into());
+        };
+        document::save(self.history.present(), folder).map_err(|errors| errors.to_string())?;
+        self.saved = Arc::clone(self.history.present());
+        let words = format!("saved to {}", folder.display());
+        self.note(NoteLevel::Info, words);
+        Ok(())
+    }
+
+    pub(super) fn autosave_if_due(&mut self) {
+        let now_secs = self.secs();
+        if now_secs - self.autosaved_at_secs < AUTOSAVE_SECS {
+            return;
+        }
+        self.autosaved_at_secs = now_secs;
+        let Some(folder) = self
+            .folder
+            .as_ref()
+            .filter(|_| !Arc::ptr_eq(&self.saved, self.history.present()))
+        else {
+            return;
+        };
+        if let Err(errors) = document::autosave(self.history.present(), folder) {
+            self.note(NoteLevel::Warning, format!("autosave: {errors}"));
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The snapshot: what can be seen of the rig after a step.
+
+use std::sync::Arc;
+
+use motion::clip::Clip;
+
+use super::Rig;
+use crate::snapshot::{KeyView, KineticsView, Snapshot};
+
+/// Samples of the kinetic curve for drawing.
+const CURVE_SAMPLES: usize = 129;
+
+impl Rig {
+    pub(super) fn look(&mut self) -> Snapshot {
+        let now_secs = self.secs();
+        let key_here = self.timeline.key_here();
+        let show = self.history.present();
+        let clip_doc = show.current_clip();
+        let keys = clip_doc.map(|c| c.times_secs()).unwrap_or_default();
+        let mut kinetics = self.kinetics_view.clone();
+        kinetics.selected = (!kinetics.coefficients.is_empty()).then_some(self.coefficient);
+        Snapshot {
+            at_secs: now_secs,
+            step: self.steps,
+            show: show.name.clone(),
+            unsaved: !Arc::ptr_eq(&self.saved, show),
+            figure: self.stage.as_ref().map(crate::stage::Stage::view),
+            clip: self.clip.clone(),
+            clip_name: show.clip.clone(),
+            keys: keys
+                .into_iter()
+                .enumerate()
+                .map(|(i, secs)| KeyView {
+                    secs,
+                    selected: key_here == Some(i),
+                })
+                .collect(),
+            kinetics,
+            transport: self.timeline.view().clone(),
+            view: self.view.clone(),
+            display: self.wiring.picture(),
+            desk: self
+                .desk
+                .view(self.wiring.panel(), now_secs, self.inputs.simulated_desk()),
+            puppet: self.puppet.as_ref().map(|puppet| puppet.view(self.now)),
+            devices: self.inputs.view(),
+            undo: self.history.undo_words().map(str::to_owned),
+            redo: self.history.redo_words().map(str::to_owned),
+            notes: self.notes.view(),
+        }
+    }
+}
+
+/// The kinetic spline as it is drawn.
+pub(super) fn kinetics(clip: Option<&Clip>) -> KineticsView {
+    let Some(clip) = clip else {
+        return KineticsView::default();
+    };
+    let kinetics = clip.kinetics();
+    let (start_secs, span_secs) = (clip.start_secs(), clip.duration_secs());
+    let curve = (0..CURVE_SAMPLES)
+        .map(|i| {
+            let secs = start_secs + span_secs * i as f64 / (CURVE_SAMPLES - 1) as f64;
+            [secs, kinetics.u(secs)]
+        })
+        .collect();
+    let knots = kinetics.knots();
+    // A cubic's coefficient acts around the mean of the three knots after its first (Greville).
+    let coefficients = kinetics
+        .coefficients()
+        .iter()
+        .enumerate()
+        .filter_map(|(i, &u)| Some([knots.get(i + 1..i + 4)?.iter().sum::<f64>() / 3.0, u]))
+        .collect();
+    KineticsView {
+        mode: format!("{:?}", kinetics.mode()).to_lowercase(),
+        curve,
+        coefficients,
+        selected: None,
+        reversals: kinetics.reversals().iter().map(|i| [i.start, i.end]).collect(),
+    }
+}

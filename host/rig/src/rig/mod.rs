@@ -1,0 +1,313 @@
+//! The rig: one value that steps.
+//!
+//! A step has one fixed order, so that the same inputs give the same step: devices by name, their tokens into
+//! the network; commands; network time; what reached the rig's parameters; animation time; the puppet; feedback
+//! to the devices; the snapshot.
+
+mod apply;
+mod look;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use device::clock::{Clock, Instant};
+use device_profiles::Profiles;
+use motion::clip::Clip;
+
+use crate::command::Command;
+use crate::desk::Desk;
+use crate::document::Show;
+use crate::history::History;
+use crate::inputs::{Change, InputError, InputSpec, Inputs};
+use crate::journal::Recorder;
+use crate::notes::Notes;
+use crate::ports::Ports;
+use crate::puppet::{PuppetSetupError, PuppetSpec, Seat};
+use crate::snapshot::{NoteLevel, Snapshot, ViewState};
+use crate::stage::Stage;
+use crate::timeline::Timeline;
+use crate::wiring::{Wiring, shapes};
+
+/// Longest time one step may cover; a host that slept longer plays on from where it was.
+const ELAPSED_SECS_MAX: f64 = 0.25;
+
+/// What a rig begins with.
+pub struct RigOptions {
+    /// The show.
+    pub show: Show,
+    /// Where it is saved; `None` for a show without a folder yet.
+    pub folder: Option<PathBuf>,
+    /// Hardware knowledge.
+    pub profiles: Arc<Profiles>,
+    /// Input devices to use.
+    pub inputs: Vec<InputSpec>,
+    /// The servo puppet to drive.
+    pub puppet: Option<PuppetSpec>,
+    /// Where to journal; its ports must be the rig's, see [`crate::journal::RecordingPorts`].
+    pub recorder: Option<Recorder>,
+}
+
+/// A rig cannot begin.
+#[derive(Debug, thiserror::Error)]
+pub enum RigError {
+    /// An input device cannot be used as described.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The puppet cannot be used as described.
+    #[error(transparent)]
+    Puppet(#[from] PuppetSetupError),
+}
+
+/// The rig.
+pub struct Rig {
+    clock: Arc<dyn Clock>,
+    ports: Box<dyn Ports>,
+    recorder: Option<Recorder>,
+    folder: Option<PathBuf>,
+    history: History<Show>,
+    /// The show as it is on disk.
+    saved: Arc<Show>,
+    wiring: Wiring,
+    stage: Option<Stage>,
+    clip: Option<Arc<Clip>>,
+    kinetics_view: crate::snapshot::KineticsView,
+    timeline: Timeline,
+    view: ViewState,
+    desk: Desk,
+    inputs: Inputs,
+    puppet: Option<Seat>,
+    coefficient: usize,
+    notes: Notes,
+    began: Instant,
+    now: Instant,
+    edited_at_secs: f64,
+    autosaved_at_secs: f64,
+    steps: u64,
+}
+
+impl Rig {
+    /// Sets everything up; ports are opened by the first step.
+    pub fn new(clock: Arc<dyn Clock>, ports: Box<dyn Ports>, options: RigOptions) -> Result<Self, RigError> {
+        let RigOptions {
+            show,
+            folder,
+            profiles,
+            inputs,
+            puppet,
+            recorder,
+        } = options;
+        let inputs = Inputs::new(inputs, &profiles)?;
+        let puppet = puppet
+            .map(|spec| Seat::new(spec, &profiles, Arc::clone(&clock)))
+            .transpose()?;
+        let (wiring, remarks) = Wiring::load(&show);
+        let began = clock.now();
+        let history = History::new(show);
+        let mut rig = Self {
+            clock,
+            ports,
+            recorder,
+            folder,
+            saved: Arc::clone(history.present()),
+            history,
+            wiring,
+            stage: None,
+            clip: None,
+            kinetics_view: crate::snapshot::KineticsView::default(),
+            timeline: Timeline::default(),
+            view: ViewState::default(),
+            desk: Desk::default(),
+            inputs,
+            puppet,
+            coefficient: 1,
+            notes: Notes::default(),
+            began,
+            now: began,
+            edited_at_secs: 0.0,
+            autosaved_at_secs: 0.0,
+            steps: 0,
+        };
+        for remark in remarks {
+            rig.note(NoteLevel::Warning, remark);
+        }
+        rig.set_stage();
+        rig.set_clip();
+        rig.reset_view();
+        Ok(rig)
+    }
+
+    /// One step. Commands are done in the order given.
+    pub fn step(&mut self, commands: &mut dyn Iterator<Item = Command>) -> Arc<Snapshot> {
+        let now = self.clock.now();
+        let elapsed_secs = now.since(self.now).as_secs_f64().min(ELAPSED_SECS_MAX);
+        self.now = now;
+        let commands: Vec<Command> = commands.collect();
+        if let Some(recorder) = &self.recorder {
+            recorder.step(now, &commands);
+        }
+        self.hear_devices();
+        for command in &commands {
+            self.apply(command);
+        }
+        for remark in self.wiring.tick(self.secs()) {
+            self.note(NoteLevel::Warning, remark);
+        }
+        self.take_requests();
+        self.advance_time(elapsed_secs);
+        self.drive_puppet();
+        self.show_on_devices();
+        self.autosave_if_due();
+        self.steps += 1;
+        let snapshot = Arc::new(self.look());
+        if let Some(recorder) = &self.recorder {
+            recorder.snapshot(&snapshot);
+        }
+        snapshot
+    }
+
+    /// Machine time since the rig began, seconds.
+    fn secs(&self) -> f64 {
+        self.now.since(self.began).as_secs_f64()
+    }
+
+    fn note(&mut self, level: NoteLevel, text: impl Into<String>) {
+        self.notes.add(self.secs(), level, text);
+    }
+
+    fn hear_devices(&mut self) {
+        let (desk, wiring, notes) = (&mut self.desk, &mut self.wiring, &mut self.notes);
+        let secs = self.now.since(self.began).as_secs_f64();
+        self.inputs.poll(
+            self.now,
+            self.ports.as_mut(),
+            &mut |event, source| {
+                desk.hear(event, source, secs, &mut |instance, output, value| {
+                    wiring.hear(instance, output, value)
+                });
+            },
+            &mut |change| match change {
+                Change::Came(name) => notes.add(secs, NoteLevel::Info, format!("{name} is there")),
+                Change::Gone(why) => notes.add(secs, NoteLevel::Warning, why),
+            },
+        );
+    }
+
+    /// Does what messages at the rig's parameters ask for. Their effects may send again; that is for the next
+    /// step, so a loop through the rig cannot hold it up.
+    fn take_requests(&mut self) {
+        for request in self.wiring.requests() {
+            self.apply_request(request);
+        }
+    }
+
+    fn advance_time(&mut self, elapsed_secs: f64) {
+        let was_playing = self.timeline.playing();
+        self.timeline.advance(elapsed_secs);
+        if was_playing {
+            self.show_clip();
+        }
+    }
+
+    fn drive_puppet(&mut self) {
+        let Some(puppet) = &mut self.puppet else { return };
+        if let Some(stage) = &self.stage {
+            puppet.follow(stage.placed());
+        }
+        let secs = self.now.since(self.began).as_secs_f64();
+        for (level, remark) in puppet.advance(self.now, self.ports.as_mut()) {
+            self.notes.add(secs, level, remark);
+        }
+    }
+
+    fn show_on_devices(&mut self) {
+        let panel = self.wiring.panel();
+        let labels = panel
+            .dial_labels
+            .iter()
+            .chain(&panel.key_labels)
+            .map(String::as_str);
+        self.inputs.show(panel.lamps, labels);
+    }
+
+    /// Puts the show's figure on stage, in its rest pose.
+    fn set_stage(&mut self) {
+        let figure = self.history.present().figure.clone();
+        self.stage = figure.map(|doc| {
+            let (drawn, remarks) = shapes(&doc);
+            for remark in remarks {
+                self.note(NoteLevel::Warning, remark);
+            }
+            Stage::new(Arc::clone(&doc.figure), Arc::new(drawn))
+        });
+        if let (Some(puppet), Some(doc)) = (&mut self.puppet, &self.history.present().figure)
+            && let Err(error) = puppet.lead_by(doc)
+        {
+            let secs = self.now.since(self.began).as_secs_f64();
+            self.notes.add(secs, NoteLevel::Warning, error.to_string());
+        }
+    }
+
+    /// Builds the playable form of the clip being edited and shows it.
+    fn set_clip(&mut self) {
+        let show = Arc::clone(self.history.present());
+        let built = match (show.current_clip(), &show.figure) {
+            (Some(doc), Some(figure)) => doc.clip(&figure.figure),
+            _ => Ok(None),
+        };
+        match built {
+            Ok(clip) => self.clip = clip.map(Arc::new),
+            // The document refuses edits that give no clip, so this is a file's doing: say it, show nothing.
+            Err(error) => {
+                self.clip = None;
+                self.note(NoteLevel::Error, format!("clip {}: {error}", show.clip));
+            }
+        }
+        self.timeline
+            .set_keys(show.current_clip().map(|c| c.times_secs()).unwrap_or_default());
+        self.kinetics_view = look::kinetics(self.clip.as_deref());
+        let last = self.kinetics_view.coefficients.len().saturating_sub(2).max(1);
+        self.coefficient = self.coefficient.clamp(1, last);
+        if self.stage.as_ref().is_some_and(|stage| !stage.posing()) {
+            self.show_clip();
+        }
+    }
+
+    /// Shows the clip's pose at the present time.
+    fn show_clip(&mut self) {
+        if let (Some(stage), Some(clip)) = (&mut self.stage, &self.clip) {
+            stage.show_clip(clip, self.timeline.secs());
+        }
+    }
+
+    fn reset_view(&mut self) {
+        self.view = match (&self.history.present().view, &self.stage) {
+            (Some(view), _) => view.clone(),
+            (None, Some(stage)) => ViewState::holding(stage.placed()),
+            (None, None) => ViewState::default(),
+        };
+    }
+
+    /// The network and all that was done to it, as text that loads to the same behaviour.
+    pub fn network_text(&self) -> String {
+        self.wiring.text()
+    }
+
+    /// The show as it is now.
+    pub fn show(&self) -> &Arc<Show> {
+        self.history.present()
+    }
+
+    /// Lets go of the puppet and every port. Returns whether torque is known to be off.
+    pub fn close(mut self) -> bool {
+        let closed = self
+            .puppet
+            .as_mut()
+            .is_none_or(|puppet| puppet.close(&*self.clock));
+        if let Some(recorder) = &self.recorder
+            && let Err(error) = recorder.finish()
+        {
+            tracing::error!("journal: {error}");
+        }
+        closed
+    }
+}

@@ -1,0 +1,186 @@
+//! Where in time the figure on screen is: play, pause, seek, loop.
+
+use crate::command::TransportCommand;
+use crate::snapshot::TransportView;
+
+/// Slowest and fastest playing speed.
+const SPEED: std::ops::RangeInclusive<f64> = 0.05..=8.0;
+
+/// The transport's state. Times are animation seconds.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Timeline {
+    view: TransportView,
+    key_secs: Vec<f64>,
+}
+
+impl Timeline {
+    /// Takes over the key times of the clip being edited, earliest first; stays at the same time if it can.
+    pub(crate) fn set_keys(&mut self, key_secs: Vec<f64>) {
+        self.view.start_secs = key_secs.first().copied().unwrap_or(0.0);
+        self.view.end_secs = key_secs.last().copied().unwrap_or(0.0);
+        self.key_secs = key_secs;
+        if self.view.playing {
+            self.view.secs = self.view.secs.clamp(self.view.start_secs, self.view.end_secs);
+        }
+    }
+
+    /// Moves time on by `elapsed_secs` of machine time if it runs.
+    pub(crate) fn advance(&mut self, elapsed_secs: f64) {
+        let v = &mut self.view;
+        if !v.playing {
+            return;
+        }
+        v.secs += elapsed_secs * v.speed;
+        if v.secs < v.end_secs {
+            return;
+        }
+        let span_secs = v.end_secs - v.start_secs;
+        if v.looped && span_secs > 0.0 {
+            v.secs = v.start_secs + (v.secs - v.start_secs).rem_euclid(span_secs);
+        } else {
+            v.secs = v.end_secs;
+            v.playing = false;
+        }
+    }
+
+    /// Does what was asked; says what was wrong with it otherwise. Returns whether time jumped or stopped
+    /// being where it was, so that the pose of the clip is to be shown.
+    pub(crate) fn apply(&mut self, command: &TransportCommand) -> Result<bool, String> {
+        match *command {
+            TransportCommand::Play => self.play(),
+            TransportCommand::Pause => self.view.playing = false,
+            TransportCommand::Toggle if self.view.playing => self.view.playing = false,
+            TransportCommand::Toggle => self.play(),
+            TransportCommand::Seek { secs } => return self.seek(secs),
+            TransportCommand::Nudge { by_secs } => return self.seek(self.view.secs + by_secs),
+            TransportCommand::Loop(on) => self.view.looped = on,
+            TransportCommand::ToggleLoop => self.view.looped = !self.view.looped,
+            TransportCommand::Key(step) => return self.step_key(step),
+            TransportCommand::Speed(speed) => {
+                if !speed.is_finite() {
+                    return Err("the playing speed must be a number".into());
+                }
+                self.view.speed = speed.clamp(*SPEED.start(), *SPEED.end());
+            }
+        }
+        Ok(matches!(
+            command,
+            TransportCommand::Play | TransportCommand::Toggle
+        ))
+    }
+
+    fn play(&mut self) {
+        if self.key_secs.len() < 2 {
+            return;
+        }
+        if self.view.secs >= self.view.end_secs {
+            self.view.secs = self.view.start_secs;
+        }
+        self.view.playing = true;
+    }
+
+    fn seek(&mut self, secs: f64) -> Result<bool, String> {
+        if !secs.is_finite() {
+            return Err("a time must be a number".into());
+        }
+        // New keys may be set after the last one, so time is only bounded below and by a long day.
+        self.view.secs = secs.clamp(0.0, 86_400.0);
+        Ok(true)
+    }
+
+    fn step_key(&mut self, step: i32) -> Result<bool, String> {
+        let now = self.view.secs;
+        let to = if step >= 0 {
+            self.key_secs
+                .iter()
+                .copied()
+                .filter(|&t| t > now + 1e-9)
+                .nth(step.max(1) as usize - 1)
+        } else {
+            self.key_secs
+                .iter()
+                .rev()
+                .copied()
+                .filter(|&t| t < now - 1e-9)
+                .nth(step.unsigned_abs() as usize - 1)
+        };
+        match to {
+            Some(secs) => self.seek(secs),
+            None => Ok(false),
+        }
+    }
+
+    pub(crate) fn secs(&self) -> f64 {
+        self.view.secs
+    }
+
+    pub(crate) fn playing(&self) -> bool {
+        self.view.playing
+    }
+
+    pub(crate) fn view(&self) -> &TransportView {
+        &self.view
+    }
+
+    /// The key at the present time, if there is one.
+    pub(crate) fn key_here(&self) -> Option<usize> {
+        self.key_secs
+            .iter()
+            .position(|&t| (t - self.view.secs).abs() < 5e-4)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timeline() -> Timeline {
+        let mut t = Timeline::default();
+        t.set_keys(vec![0.0, 1.0, 3.0]);
+        t
+    }
+
+    #[test]
+    fn playing_stops_at_the_end() {
+        let mut t = timeline();
+        t.apply(&TransportCommand::Play).expect("plays");
+        t.advance(2.5);
+        assert!(t.playing());
+        t.advance(1.0);
+        assert_eq!((t.secs(), t.playing()), (3.0, false));
+    }
+
+    #[test]
+    fn looping_wraps_by_the_span() {
+        let mut t = timeline();
+        t.apply(&TransportCommand::Loop(true)).expect("loops");
+        t.apply(&TransportCommand::Play).expect("plays");
+        t.advance(7.0);
+        assert!((t.secs() - 1.0).abs() < 1e-12 && t.playing());
+    }
+
+    #[test]
+    fn keys_are_stepped_both_ways_and_end_quietly() {
+        let mut t = timeline();
+        for (step, want) in [
+            (1, 1.0),
+            (1, 3.0),
+            (1, 3.0),
+            (-1, 1.0),
+            (-2, 1.0),
+            (-1, 0.0),
+            (2, 3.0),
+        ] {
+            t.apply(&TransportCommand::Key(step)).expect("steps");
+            assert_eq!(t.secs(), want, "after a step of {step}");
+        }
+    }
+
+    #[test]
+    fn times_that_are_no_numbers_are_refused() {
+        let mut t = timeline();
+        assert!(t.apply(&TransportCommand::Seek { secs: f64::NAN }).is_err());
+        assert!(t.apply(&TransportCommand::Speed(f64::INFINITY)).is_err());
+        assert_eq!(t.secs(), 0.0);
+    }
+}

@@ -1,0 +1,169 @@
+//! The function network inside the rig: loaded from the show, fed by the desk, drained into requests.
+//!
+//! A figure's shapes are commands of the same language, so they are drawn by a machine too: its own, because a
+//! shape called `line` must not meet a function called `line`.
+
+use std::sync::Arc;
+
+use glam::DMat4;
+use motion::figure::Figure;
+use ps300::display::{DisplayList, Stroke};
+use ps300::machine::{Machine, Panel};
+use ps300::value::{Kinds, Value};
+
+use crate::document::{FigureDoc, Show};
+use crate::parameters::{self, LINK, PARAMETERS, Request};
+
+/// Firings of one step; what is left goes on in the next one.
+const FIRINGS_PER_STEP: u32 = 20_000;
+
+/// The network and what it is connected to.
+pub(crate) struct Wiring {
+    machine: Machine,
+    /// Upper-case names of the figure's link parameters, in the figure's order.
+    links: Vec<String>,
+    frame: u64,
+    secs: f64,
+    picture: (u64, Arc<DisplayList>),
+}
+
+impl Wiring {
+    /// Loads the show's networks. What could not be read or done is told in words, with its place; the rest runs.
+    pub(crate) fn load(show: &Show) -> (Self, Vec<String>) {
+        let mut machine = Machine::new();
+        let mut remarks = Vec::new();
+        for parameter in PARAMETERS {
+            let kinds: Vec<Kinds> = parameter.inlets.iter().map(|inlet| inlet.kinds).collect();
+            if let Err(error) = machine.declare_sink(parameter.name, &kinds) {
+                remarks.push(error.to_string());
+            }
+        }
+        let mut links = Vec::new();
+        let kinds: Vec<Kinds> = LINK.iter().map(|(kinds, _)| *kinds).collect();
+        for link in show.figure.iter().flat_map(|f| f.figure.links()) {
+            let name = format!("FIGURE.{}", link.name);
+            // Motion capture may name links in ways the language cannot spell; they have no inlet then.
+            if let Err(error) = machine.declare_sink(&name, &kinds) {
+                tracing::debug!("{error}");
+            }
+            links.push(name.to_ascii_uppercase());
+        }
+        let mut wiring = Self {
+            machine,
+            links,
+            frame: 0,
+            secs: 0.0,
+            picture: (0, Arc::default()),
+        };
+        for file in &show.networks {
+            remarks.extend(
+                wiring
+                    .machine
+                    .load(&file.text)
+                    .iter()
+                    .map(|d| format!("{}.ps300:{d}", file.name)),
+            );
+        }
+        remarks.extend(
+            wiring
+                .machine
+                .load(&show.patches)
+                .iter()
+                .map(|d| format!("patches:{d}")),
+        );
+        (wiring, remarks)
+    }
+
+    /// Executes commands given while the rig runs. Refused as a whole only if nothing of it could be read.
+    pub(crate) fn execute(&mut self, text: &str) -> Vec<String> {
+        self.machine.load(text).iter().map(ToString::to_string).collect()
+    }
+
+    /// A message from a device instance; the network runs until it is quiet before the next one.
+    pub(crate) fn hear(&mut self, instance: &str, output: u8, value: Value) {
+        self.machine.emit(instance, output, value);
+        self.machine.settle();
+    }
+
+    /// Moves network time and lets clocks send. Returns what went wrong, in words.
+    pub(crate) fn tick(&mut self, secs: f64) -> Vec<String> {
+        self.secs = secs;
+        self.frame += 1;
+        self.machine.tick(secs, self.frame, FIRINGS_PER_STEP);
+        self.machine.reports().iter().map(ToString::to_string).collect()
+    }
+
+    /// What arrived at the rig's parameters, in order.
+    pub(crate) fn requests(&mut self) -> Vec<Request> {
+        let mut requests = Vec::new();
+        let links = &self.links;
+        self.machine.drain_sinks(|_, name, port, value| {
+            let upper = name.to_ascii_uppercase();
+            let request = match links.iter().position(|link| *link == upper) {
+                Some(link) => parameters::link_request(link as u16, port, &value),
+                None => parameters::request(&upper, port, &value),
+            };
+            requests.extend(request);
+        });
+        requests
+    }
+
+    pub(crate) fn panel(&self) -> &Panel {
+        self.machine.panel()
+    }
+
+    /// What the network's own structures display; drawn again only when they changed.
+    pub(crate) fn picture(&mut self) -> Arc<DisplayList> {
+        let revision = self.machine.picture_revision();
+        if self.picture.0 != revision {
+            self.picture = (revision, Arc::new(self.machine.display()));
+        }
+        Arc::clone(&self.picture.1)
+    }
+
+    /// The network and all that was done to it since, as text that loads to the same behaviour.
+    pub(crate) fn text(&self) -> String {
+        self.machine.network_text()
+    }
+}
+
+/// What each link looks like, in link axes: the shape file's structure of the link's name, or a plain line.
+/// Remarks say what of the files could not be read.
+pub(crate) fn shapes(doc: &FigureDoc) -> (Vec<Vec<Stroke>>, Vec<String>) {
+    let mut machine = Machine::new();
+    let mut remarks = Vec::new();
+    for (ending, text) in [("pri", &doc.primitives), ("shp", &doc.shapes)] {
+        remarks.extend(
+            machine
+                .load(text)
+                .iter()
+                .map(|d| format!("{}.{ending}:{d}", doc.name)),
+        );
+    }
+    let figure: &Figure = &doc.figure;
+    let shapes = figure
+        .links()
+        .iter()
+        .map(|link| {
+            let drawn = machine.display_of(&link.name, DMat4::IDENTITY).strokes;
+            if drawn.is_empty() {
+                vec![bone(link.length)]
+            } else {
+                drawn
+            }
+        })
+        .collect();
+    (shapes, remarks)
+}
+
+/// A line along the link: the shape of a link without one.
+fn bone(length: f64) -> Stroke {
+    Stroke {
+        from: glam::DVec3::ZERO,
+        to: glam::DVec3::Z * length,
+        hue_deg: 0.0,
+        saturation: 0.0,
+        intensity: 1.0,
+        view: 0,
+    }
+}

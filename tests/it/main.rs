@@ -1,0 +1,5 @@
+//! The whole rig under test, in one binary.
+
+mod directions;
+mod source;
+mod tidy;
