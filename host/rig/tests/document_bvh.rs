@@ -208,7 +208,7 @@ fn positions_below_the_root_may_only_repeat_what_the_skeleton_says() {
 /// What is replaced in a sound file, by what, where the error is, and what it says.
 type Damage = (&'static str, &'static str, (u32, u32), &'static str);
 
-const DAMAGE: [Damage; 13] = [
+const DAMAGE: [Damage; 15] = [
     ("HIERARCHY", "version = 1", (1, 1), "expected `HIERARCHY`"),
     ("0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n", "", (15, 1), "ends after 2"),
     ("170 -170 5", "170 -17O 5", (14, 39), "`-17O`"),
@@ -220,6 +220,8 @@ const DAMAGE: [Damage; 13] = [
     ("Frames: 3", "Frames: 99999999", (11, 9), "at most"),
     ("Frames: 3", "Frames: three", (11, 9), "number of frames"),
     ("0.04", "0", (12, 13), "above 0"),
+    ("0.04", "1e-9", (12, 13), "cannot be meant"),
+    ("0.04", "4e9", (12, 13), "cannot be meant"),
     (
         "3 Zrotation Yrotation Xrotation\n",
         "1 Zrotation\n",

@@ -125,7 +125,7 @@ fn refusals_say_why() {
         (
             EditCommand::StoreKey { secs: f64::NAN },
             Some(&pose),
-            "not finite",
+            "no time for a key",
         ),
         (EditCommand::DeleteKey { key: 3 }, None, "no key 3"),
         (

@@ -92,7 +92,19 @@ fn faults(file: &str, from: &str, to: &str) -> Vec<String> {
 const CLIP: &str = "clips/salute.toml";
 
 /// A file, what is replaced in it, by what, and a part of an error that must follow.
-const FAULTS: [(&str, &str, &str, &str); 22] = [
+const FAULTS: [(&str, &str, &str, &str); 24] = [
+    (
+        CLIP,
+        "secs = 0.9",
+        "secs = 1e-9",
+        "clips/salute.toml:27:1: key at 0.000000001 s follows one at 0 s",
+    ),
+    (
+        CLIP,
+        "secs = 6.0",
+        "secs = 6e300",
+        "times lie within 10000000 s of 0",
+    ),
     (
         "show.toml",
         "version = 1\n",
@@ -208,7 +220,7 @@ const FAULTS: [(&str, &str, &str, &str); 22] = [
         "clips/a second one.toml",
         "adjust = [[2",
         "adjust = [[99",
-        "names coefficient 99",
+        "clips/a second one.toml:6:10: the timing cannot be: there is no kinetic coefficient 99",
     ),
 ];
 

@@ -36,6 +36,8 @@ const KINETICS: [(&str, KineticsMode); 3] = [
 #[derive(Debug, Default)]
 struct ClipText<'t> {
     laws: ClipDoc,
+    /// Where `adjust` stands; the beginning of the file if it is not there.
+    adjust_at: usize,
     keys: Vec<KeyText<'t>>,
 }
 

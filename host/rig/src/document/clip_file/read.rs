@@ -40,7 +40,7 @@ pub(in crate::document) fn read(
         && figure.is_some()
         && let Err(error) = clip.check_timing()
     {
-        found.error(source.error(0, format!("the timing cannot be: {error}")));
+        found.error(source.error(text.adjust_at, format!("the timing cannot be: {error}")));
     }
     found.errors.is_empty().then_some(clip)
 }
@@ -64,10 +64,10 @@ fn read_1<'t>(mut file: Fields<'t>, found: &mut Findings) -> ClipText<'t> {
         .optional("keep_forward")
         .and_then(|v| v.boolean(found))
         .unwrap_or(false);
-    laws.coefficient_edits = file
-        .optional("adjust")
-        .map(|v| adjustments(v, found))
-        .unwrap_or_default();
+    if let Some(pairs) = file.optional("adjust") {
+        text.adjust_at = pairs.at;
+        laws.coefficient_edits = adjustments(pairs, found);
+    }
     laws.frame_secs = file.optional("frame_secs").and_then(|v| v.above_zero(found));
     let keys = file
         .optional("key")
