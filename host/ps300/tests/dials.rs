@@ -62,8 +62,14 @@ fn eight_dials_place_the_object_as_the_closed_form_does() {
         machine.tick(f64::from(step) / 60.0, step.into(), 1000);
         let expected = closed_form(turns);
         let (from, to) = drawn(&machine);
-        assert!((from - expected.transform_point3(DVec3::ZERO)).length() < 1e-9, "step {step}");
-        assert!((to - expected.transform_point3(DVec3::ONE)).length() < 1e-9, "step {step}");
+        assert!(
+            (from - expected.transform_point3(DVec3::ZERO)).length() < 1e-9,
+            "step {step}"
+        );
+        assert!(
+            (to - expected.transform_point3(DVec3::ONE)).length() < 1e-9,
+            "step {step}"
+        );
     }
     assert_eq!(machine.reports(), []);
 }

@@ -1,5 +1,7 @@
 //! The display tree: what is drawn, what messages change, what is refused.
 
+use std::fmt::Write;
+
 use glam::{DMat3, DMat4, DVec3};
 use ps300::display::{Cut, DisplayList};
 use ps300::language::Input;
@@ -13,7 +15,10 @@ fn machine(program: &str) -> Machine {
 }
 
 fn ends(list: &DisplayList) -> Vec<(DVec3, DVec3)> {
-    list.strokes.iter().map(|stroke| (stroke.from, stroke.to)).collect()
+    list.strokes
+        .iter()
+        .map(|stroke| (stroke.from, stroke.to))
+        .collect()
 }
 
 fn near(a: DVec3, b: [f64; 3]) -> bool {
@@ -64,7 +69,11 @@ fn state_holds_below_and_is_restored_beside() {
          all := INSTANCE OF both, s, dot; DISPLAY all;",
     );
     let list = m.display();
-    let seen: Vec<_> = list.strokes.iter().map(|s| (s.to.to_array(), s.hue_deg)).collect();
+    let seen: Vec<_> = list
+        .strokes
+        .iter()
+        .map(|s| (s.to.to_array(), s.hue_deg))
+        .collect();
     assert_eq!(
         seen,
         [
@@ -85,8 +94,15 @@ fn classes_of_vectors_decide_what_is_drawn() {
          d := VECTOR_LIST DOTS N=2 0,0 1,0; i := VECTOR_LIST ITEMIZED N=4 P 0,0 L 1,0 P 2,0 L 3,0;
          DISPLAY c; DISPLAY s; DISPLAY d; DISPLAY i;",
     );
-    let xs: Vec<_> = ends(&m.display()).iter().map(|(from, to)| (from.x, to.x)).collect();
-    let (c, s, d) = ([(0.0, 1.0), (1.0, 2.0)], [(0.0, 1.0), (2.0, 3.0)], [(0.0, 0.0), (1.0, 1.0)]);
+    let xs: Vec<_> = ends(&m.display())
+        .iter()
+        .map(|(from, to)| (from.x, to.x))
+        .collect();
+    let (c, s, d) = (
+        [(0.0, 1.0), (1.0, 2.0)],
+        [(0.0, 1.0), (2.0, 3.0)],
+        [(0.0, 0.0), (1.0, 1.0)],
+    );
     assert_eq!(xs, [c, s, d, s].concat());
 }
 
@@ -111,7 +127,11 @@ fn redefining_a_name_changes_everything_that_refers_to_it() {
 #[test]
 fn names_nothing_defines_are_warned_of_at_their_place() {
     let mut m = Machine::new();
-    let got: Vec<_> = m.load("a := INSTANCE OF b, c;\nb := NIL; DISPLAY d;").iter().map(ToString::to_string).collect();
+    let got: Vec<_> = m
+        .load("a := INSTANCE OF b, c;\nb := NIL; DISPLAY d;")
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     assert_eq!(
         got,
         [
@@ -124,10 +144,21 @@ fn names_nothing_defines_are_warned_of_at_their_place() {
 
 #[test]
 fn what_would_contain_itself_is_refused() {
-    let mut m = machine("l := VECTOR_LIST N=2 0,0 1,0; c := INSTANCE OF l; b := SCALE BY 2 THEN c; a := INSTANCE OF b; DISPLAY a;");
-    for program in ["c := INSTANCE OF l, a;", "INCLUDE a IN c;", "INCLUDE c IN c;", "x := INSTANCE OF x;", "l := BEGIN_STRUCTURE m := INSTANCE OF b; END_STRUCTURE;"] {
+    let mut m = machine(
+        "l := VECTOR_LIST N=2 0,0 1,0; c := INSTANCE OF l; b := SCALE BY 2 THEN c; a := INSTANCE OF b; DISPLAY a;",
+    );
+    for program in [
+        "c := INSTANCE OF l, a;",
+        "INCLUDE a IN c;",
+        "INCLUDE c IN c;",
+        "x := INSTANCE OF x;",
+        "l := BEGIN_STRUCTURE m := INSTANCE OF b; END_STRUCTURE;",
+    ] {
         let got = m.load(program);
-        assert!(got.len() == 1 && got[0].message.contains("would contain itself"), "{program} {got:?}");
+        assert!(
+            got.len() == 1 && got[0].message.contains("would contain itself"),
+            "{program} {got:?}"
+        );
     }
     assert_eq!(m.display().strokes.len(), 1);
     assert_eq!(m.display().cuts, []);
@@ -135,13 +166,18 @@ fn what_would_contain_itself_is_refused() {
 
 #[test]
 fn include_and_remove_edit_an_instance() {
-    let mut m = machine("l := VECTOR_LIST N=2 0,0 1,0; a := INSTANCE OF l; k := VECTOR_LIST N=2 0,0 2,0; INCLUDE k IN a; DISPLAY a;");
+    let mut m = machine(
+        "l := VECTOR_LIST N=2 0,0 1,0; a := INSTANCE OF l; k := VECTOR_LIST N=2 0,0 2,0; INCLUDE k IN a; DISPLAY a;",
+    );
     assert_eq!(m.display().strokes.len(), 2);
     m.load("REMOVE l FROM a;");
     assert_eq!(ends(&m.display()), [(DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0))]);
     let got = m.load("REMOVE l FROM a; INCLUDE l IN k;");
     assert!(got[0].message.contains("l is not in a"), "{got:?}");
-    assert!(got[1].message.contains("k is VECTOR_LIST, not an INSTANCE"), "{got:?}");
+    assert!(
+        got[1].message.contains("k is VECTOR_LIST, not an INSTANCE"),
+        "{got:?}"
+    );
 }
 
 #[test]
@@ -156,7 +192,11 @@ fn prefix_stands_above_and_follow_below() {
     assert_eq!(ends(&m.display()), expected);
     let again = machine(&m.network_text().replace("BY 1,0,0 THEN l", "BY 2,0,0 THEN l"));
     assert_eq!(again.display_of("t", DMat4::IDENTITY).strokes.len(), 1);
-    assert!(m.load("FOLLOW l WITH SCALE BY 2;")[0].message.contains("not an operation"));
+    assert!(
+        m.load("FOLLOW l WITH SCALE BY 2;")[0]
+            .message
+            .contains("not an operation")
+    );
 }
 
 #[test]
@@ -196,10 +236,18 @@ fn views_stand_apart_from_world_space() {
 #[test]
 fn views_that_are_none_are_refused_with_the_reason() {
     let mut m = Machine::new();
-    let got = m.load("a := LOOK AT 1,1,1 FROM 1,1,1 THEN b; w := WINDOW X=1:1 Y=0:1 THEN b; f := FIELD_OF_VIEW 0 THEN b;");
+    let got = m.load(
+        "a := LOOK AT 1,1,1 FROM 1,1,1 THEN b; w := WINDOW X=1:1 Y=0:1 THEN b; f := FIELD_OF_VIEW 0 THEN b;",
+    );
     let text: Vec<_> = got.iter().map(|d| d.message.as_str()).collect();
-    assert!(text[0].contains("a: the eye is at the point it looks at"), "{text:?}");
-    assert!(text[1].contains("width") && text[2].contains("between 0 and 180"), "{text:?}");
+    assert!(
+        text[0].contains("a: the eye is at the point it looks at"),
+        "{text:?}"
+    );
+    assert!(
+        text[1].contains("width") && text[2].contains("between 0 and 180"),
+        "{text:?}"
+    );
 }
 
 #[test]
@@ -211,10 +259,14 @@ fn messages_change_nodes_and_leave_the_program() {
     let revision = m.picture_revision();
     m.load("SEND 3 TO <1>s; SEND V2D(200,0.5) TO <1>c; SEND 0.25 TO <2>c; SEND V2D(0,0.5) TO <2>i;");
     let stroke = m.display().strokes[0];
-    assert_eq!((stroke.to.x, stroke.hue_deg, stroke.saturation, stroke.intensity), (3.0, 200.0, 0.25, 0.5));
+    assert_eq!(
+        (stroke.to.x, stroke.hue_deg, stroke.saturation, stroke.intensity),
+        (3.0, 200.0, 0.25, 0.5)
+    );
     m.load("SEND V3D(4,1,1) TO <1>s;");
     assert_eq!(m.display().strokes[0].to.x, 4.0);
-    m.send("s", Input::Number(1), DMat3::from_diagonal(DVec3::splat(5.0))).unwrap();
+    m.send("s", Input::Number(1), DMat3::from_diagonal(DVec3::splat(5.0)))
+        .unwrap();
     assert_eq!(m.display().strokes[0].to.x, 5.0);
     assert!(m.picture_revision() > revision);
     assert_eq!(m.network_text(), before);
@@ -224,7 +276,12 @@ fn messages_change_nodes_and_leave_the_program() {
 #[test]
 fn vector_lists_are_inked_by_message() {
     let mut m = machine("ink := VECTOR_LIST CONNECTED N=2 0,0 1,0; DISPLAY ink;");
-    let xs = |m: &Machine| -> Vec<_> { ends(&m.display()).iter().map(|(from, to)| (from.x, to.x)).collect() };
+    let xs = |m: &Machine| -> Vec<_> {
+        ends(&m.display())
+            .iter()
+            .map(|(from, to)| (from.x, to.x))
+            .collect()
+    };
     m.load("SEND V2D(2,0) TO <append>ink; SEND V3D(3,0,0) TO <append>ink;");
     assert_eq!(xs(&m), [(0.0, 1.0), (1.0, 2.0), (2.0, 3.0)]);
     m.load("SEND V2D(9,0) TO <last>ink; SEND V2D(5,0) TO <2>ink; SEND FIX(1) TO <delete>ink;");
@@ -251,17 +308,28 @@ fn characters_are_placed_and_rewritten() {
     let list = m.display();
     let text = &list.letterings[0];
     assert_eq!(&*text.text, "XbcZ");
-    assert_eq!((text.at, text.right, text.step.y), (DVec3::new(6.0, 6.0, 0.0), DVec3::X * 2.0, -1.0));
+    assert_eq!(
+        (text.at, text.right, text.step.y),
+        (DVec3::new(6.0, 6.0, 0.0), DVec3::X * 2.0, -1.0)
+    );
 }
 
 #[test]
 fn labels_are_reached_through_their_structure_and_go_with_it() {
-    let mut m = machine("s := BEGIN_STRUCTURE r := ROTATE IN Z 0; in := BEGIN_STRUCTURE t := TRANSLATE BY 0,0,0; VECTOR_LIST N=2 0,0 1,0; END_STRUCTURE; END_STRUCTURE; DISPLAY s;");
+    let mut m = machine(
+        "s := BEGIN_STRUCTURE r := ROTATE IN Z 0; in := BEGIN_STRUCTURE t := TRANSLATE BY 0,0,0; VECTOR_LIST N=2 0,0 1,0; END_STRUCTURE; END_STRUCTURE; DISPLAY s;",
+    );
     m.load("z := F:ZROTATE; CONNECT z<1>:<1>s.r; SEND 90 TO <1>z; SEND V3D(1,0,0) TO <1>s.in.t;");
     let (from, to) = ends(&m.display())[0];
-    assert!(near(from, [0.0, 1.0, 0.0]) && near(to, [0.0, 2.0, 0.0]), "{from} {to}");
+    assert!(
+        near(from, [0.0, 1.0, 0.0]) && near(to, [0.0, 2.0, 0.0]),
+        "{from} {to}"
+    );
     let got = m.load("DELETE s.r;");
-    assert!(got[0].message.contains("s.r is a label inside a structure"), "{got:?}");
+    assert!(
+        got[0].message.contains("s.r is a label inside a structure"),
+        "{got:?}"
+    );
     let again = machine(&m.network_text());
     assert_eq!(again.connections(), m.connections());
     m.load("s := NIL;");
@@ -273,22 +341,34 @@ fn labels_are_reached_through_their_structure_and_go_with_it() {
 fn deep_and_wide_trees_are_cut_and_said_so() {
     let mut deep = String::from("n0 := VECTOR_LIST N=2 0,0 1,0;\n");
     for level in 1..2000 {
-        deep.push_str(&format!("n{level} := SCALE BY 1 THEN n{};\n", level - 1));
+        let _ = writeln!(deep, "n{level} := SCALE BY 1 THEN n{};", level - 1);
     }
     let m = machine(&deep);
     let list = m.display_of("n1999", DMat4::IDENTITY);
-    assert!(list.strokes.is_empty() && matches!(list.cuts[..], [Cut::Depth { .. }]), "{:?}", list.cuts);
+    assert!(
+        list.strokes.is_empty() && matches!(list.cuts[..], [Cut::Depth { .. }]),
+        "{:?}",
+        list.cuts
+    );
     assert_eq!(m.display_of("n200", DMat4::IDENTITY).strokes.len(), 1);
 
     let mut wide = String::from("w0 := VECTOR_LIST N=2 0,0 1,0;\n");
     for level in 1..60 {
-        wide.push_str(&format!("w{level} := INSTANCE OF w{0}, v{0}; v{level} := INSTANCE OF w{0};\n", level - 1));
+        let _ = writeln!(
+            wide,
+            "w{level} := INSTANCE OF w{0}, v{0}; v{level} := INSTANCE OF w{0};",
+            level - 1
+        );
     }
     wide.push_str("v0 := NIL; DISPLAY w59;");
     let m = machine(&wide);
     let list = m.display();
     assert!(list.strokes.len() <= 1 << 19);
-    assert!(list.cuts.iter().any(|cut| matches!(cut, Cut::Size { .. })), "{:?}", list.cuts);
+    assert!(
+        list.cuts.iter().any(|cut| matches!(cut, Cut::Size { .. })),
+        "{:?}",
+        list.cuts
+    );
 }
 
 #[test]

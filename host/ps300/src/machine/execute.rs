@@ -138,7 +138,8 @@ impl Machine {
                 max: self.network.limits.instances_max,
             });
         };
-        self.names.define(name, Thing::Instance(id));
+        let entry = self.names.define(name, Thing::Instance(id));
+        self.displayed.retain(|&displayed| displayed != entry); // It is nothing to look at any more.
         Ok(())
     }
 
