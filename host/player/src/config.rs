@@ -14,7 +14,7 @@ pub enum Ending {
 /// The numbers are this project's choices for puppets of small servos.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlayerConfig {
-    /// Time between ticks, as whoever ticks intends it.
+    /// Time between ticks, as whoever ticks intends it; 0.5 to 50 ms.
     pub period: Duration,
     /// What follows a stop or a fault.
     pub ending: Ending,

@@ -39,11 +39,11 @@ pub enum Fault {
     #[error("{0} does not answer; check its cable and the one before it, then power")]
     BusSilent(Place),
     /// The line itself failed.
-    #[error("bus \"{bus}\": {why}; the servos' own watchdogs stop them")]
+    #[error("{why}; the servos' own watchdogs stop them")]
     BusLost {
         /// The bus's name.
         bus: String,
-        /// What the line says.
+        /// What the line says, with the bus's name.
         why: String,
     },
     /// A hardware error is latched.

@@ -178,6 +178,15 @@ impl Lines {
         self.all.iter().all(Line::is_loose)
     }
 
+    /// Whether any servo said that it has torque when it was last asked.
+    pub(crate) fn any_torque(&self) -> bool {
+        let torque = |line: &Line| {
+            let supplies = (0..line.joints.len()).filter_map(|member| line.bus.supply(member));
+            supplies.into_iter().any(|supply| supply.torque == Some(true))
+        };
+        self.all.iter().any(|line| !line.lost && torque(line))
+    }
+
     /// Whether every goal that could still move stands.
     pub(crate) fn all_still(&self) -> bool {
         self.all

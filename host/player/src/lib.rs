@@ -21,6 +21,7 @@ mod approach;
 mod config;
 mod fault;
 mod joints;
+mod obey;
 mod order;
 mod playback;
 mod player;

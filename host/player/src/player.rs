@@ -6,7 +6,7 @@
 use crate::config::{Ending, PlayerConfig};
 use crate::fault::{Fault, Place};
 use crate::joints::Lines;
-use crate::order::{Order, Rejection};
+use crate::order::Order;
 use crate::playback::Playback;
 use crate::puppet::{Puppet, PuppetError};
 use crate::report::{JointReport, Report};
@@ -72,11 +72,13 @@ pub struct Player {
     pub(crate) playback: Option<Playback>,
     pub(crate) stance: Stance,
     pub(crate) stopping: Option<Stopping>,
-    reset_pending: bool,
+    pub(crate) reset_pending: bool,
     pub(crate) wanted: Vec<f64>,
     events: Vec<(usize, BusEvent)>,
     pub(crate) ticked: Option<Instant>,
     pub(crate) late_run: u32,
+    /// Since when ticks have come often enough to hear every servo.
+    pub(crate) listening_since: Instant,
     pub(crate) heard_operator: Instant,
     pub(crate) strained_since: Vec<Option<Instant>>,
     pub(crate) report: Report,
@@ -101,6 +103,7 @@ impl Player {
             events: Vec::with_capacity(EVENTS_MAX),
             ticked: None,
             late_run: 0,
+            listening_since: Instant::ZERO,
             heard_operator: Instant::ZERO,
             strained_since: vec![None; count],
             report: Report {
@@ -216,7 +219,7 @@ impl Player {
         }
     }
 
-    fn lose(&mut self, at: usize, why: String, now: Instant) {
+    pub(crate) fn lose(&mut self, at: usize, why: String, now: Instant) {
         if let Some(line) = self.lines.all.get_mut(at) {
             line.lost = true;
             let bus = line.bus.name().to_owned();
@@ -302,95 +305,6 @@ impl Player {
         }
     }
 
-    fn obey(&mut self, order: Order, now: Instant) {
-        self.heard_operator = now;
-        let verb = order.verb();
-        let fits = match (&order, &self.state) {
-            (Order::Alive, _) | (Order::Release, State::Released) => Ok(()),
-            (Order::Stop, _) => {
-                self.fault(Fault::StopPressed, now);
-                Ok(())
-            }
-            (Order::Reset, State::Faulted(_)) => {
-                self.reset_pending = true;
-                self.stopping
-                    .get_or_insert(Stopping {
-                        since: now,
-                        ending: Ending::Release,
-                    })
-                    .ending = Ending::Release;
-                Ok(())
-            }
-            (_, State::Faulted(_)) => Err("reset first"),
-            (Order::Reset, _) => Err("there is no fault to leave"),
-            (Order::Arm, State::Released) if self.lines.all_loose() => {
-                self.arm(now);
-                Ok(())
-            }
-            (Order::Arm, _) => Err("release first, and wait until that is done"),
-            (Order::Release, State::Arming) => {
-                self.lines.release_all(now);
-                self.state = State::Released;
-                Ok(())
-            }
-            (Order::Release, _) => {
-                self.begin_hold();
-                self.stopping = Some(Stopping {
-                    since: now,
-                    ending: Ending::Release,
-                });
-                Ok(())
-            }
-            (_, State::Released) => Err("arm first"),
-            (_, State::Arming) => Err("wait until arming is done"),
-            (Order::Hold, _) => {
-                self.begin_hold();
-                Ok(())
-            }
-            _ if self.stopping.is_some() => Err("torque is going off; arm again"),
-            _ => {
-                self.play(order);
-                Ok(())
-            }
-        };
-        if let Err(remedy) = fits {
-            self.reject(Rejection::State {
-                order: verb,
-                state: self.state.name(),
-                remedy,
-            });
-        }
-    }
-
-    pub(crate) fn reject(&mut self, rejection: Rejection) {
-        tracing::debug!("{rejection}");
-        self.report.rejected = Some(rejection);
-    }
-
-    fn arm(&mut self, now: Instant) {
-        self.state = State::Arming;
-        self.stopping = None;
-        self.strained_since.fill(None);
-        for at in 0..self.lines.all.len() {
-            let Some(line) = self.lines.all.get_mut(at) else {
-                continue;
-            };
-            line.lost = false;
-            if let Err(error) = line.bus.begin_arming(now) {
-                self.lose(at, error.to_string(), now);
-                return;
-            }
-        }
-    }
-
-    fn begin_hold(&mut self) {
-        self.playback = None;
-        self.stance = Stance::Stand;
-        if self.state == State::Playing {
-            self.state = State::Holding;
-        }
-    }
-
     /// Sends goals where there is torque, looks where there is none.
     fn drive(&mut self, now: Instant) {
         let posed = self.stance == Stance::Pose
@@ -424,14 +338,16 @@ impl Player {
     fn fill_report(&mut self, now: Instant) {
         let Self { report, lines, .. } = self;
         report.at = now;
-        report.state.clone_from(&self.state);
+        if report.state != self.state {
+            report.state.clone_from(&self.state);
+        }
         report.phase = self
             .playback
             .as_ref()
             .map(|playback| playback.phase)
             .unwrap_or_default();
         report.clip_secs = self.playback.as_ref().and_then(Playback::secs);
-        report.torque = !lines.all_loose();
+        report.torque = !lines.all_loose() || lines.any_torque();
         report.stale_discarded = 0;
         report.timeouts = 0;
         for line in &lines.all {

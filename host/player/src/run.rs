@@ -10,7 +10,12 @@ use std::time::Duration;
 /// How long the loop goes on after it was told to end, for joints to come to a stand and torque to go off.
 const END_MAX: Duration = Duration::from_secs(5);
 
-/// Ticks until `seen` breaks. `next` gives the orders that have come since the last tick; it must not block.
+/// A period of nothing would never wait.
+const PERIOD_MIN: Duration = Duration::from_micros(500);
+/// Above it the limiter would take every period for a pause of the host.
+const PERIOD_MAX: Duration = Duration::from_millis(50);
+
+/// Ticks every `period` (0.5 to 50 ms) until `seen` breaks. `next` gives the orders that have come since the last tick; it must not block.
 /// Between ticks the lines are listened to, so that the rest of a period can be used.
 ///
 /// However the loop ends, the player is stopped first if it may have torque: it decelerates, releases, and
@@ -22,8 +27,8 @@ pub fn run(
     next: &mut dyn FnMut() -> Option<Order>,
     seen: &mut dyn FnMut(&Report) -> ControlFlow<()>,
 ) {
-    // A period of nothing would never wait.
-    let period = period.max(Duration::from_micros(500));
+    let period = period.clamp(PERIOD_MIN, PERIOD_MAX);
+    player.config.period = period;
     let mut due = clock.now();
     let mut ending: Option<Instant> = None;
     let mut last_orders = [Order::Stop, Order::Reset].into_iter();

@@ -3,7 +3,6 @@
 use crate::fault::Fault;
 use crate::player::{Player, State};
 use device::Instant;
-use device::servo::{Armed, Presence};
 
 /// The clip's time runs on by no more than this in one tick: after a longer pause of the host the motion goes
 /// on where it was, not where it would have been. As `device::servo::limit::STEP_MAX_SECS`.
@@ -15,6 +14,10 @@ impl Player {
         let period = self.config.period;
         let since = self.ticked.map_or(period, |ticked| now.since(ticked));
         self.ticked = Some(now);
+        if self.ticked_seldom(since) {
+            // Nobody listened meanwhile: servos are not to blame for what was not asked of them.
+            self.listening_since = now;
+        }
         let lateness = since.saturating_sub(period);
         self.report.lateness = lateness;
         if lateness > self.config.late_after {
@@ -24,6 +27,10 @@ impl Player {
             self.late_run = 0;
         }
         since.as_secs_f64().min(STEP_MAX_SECS)
+    }
+
+    fn ticked_seldom(&self, since: std::time::Duration) -> bool {
+        since.saturating_mul(2) > self.config.silence_max
     }
 
     /// Judges what is known by now. Only a player with torque has anything to fear.
@@ -51,27 +58,19 @@ impl Player {
         self.find_silence(now).or_else(|| self.find_strain(now))
     }
 
-    /// Blames the member that is certainly absent; else the one not heard for the longest time.
+    /// Blames the first in the chain of those not heard for too long: behind it, all may be its fault.
     fn find_silence(&self, now: Instant) -> Option<Fault> {
         for (at, line) in self.lines.all.iter().enumerate() {
-            if line.bus.armed() != Armed::Yes {
+            if !line.is_armed() {
                 continue;
             }
-            let age = |member: usize| line.bus.reading(member).map(|reading| reading.age(now));
-            let silent = (0..line.joints.len())
-                .filter(|member| age(*member).is_none_or(|age| age > self.config.silence_max));
-            let absent = |member: &usize| line.bus.presence(*member) == Some(Presence::Absent);
-            let mut blamed = None;
-            for member in silent {
-                if absent(&member) {
-                    blamed = Some(member);
-                    break;
-                }
-                if blamed.is_none_or(|blamed| age(member) > age(blamed)) {
-                    blamed = Some(member);
-                }
-            }
-            if let Some(place) = blamed.and_then(|member| self.place(at, member)) {
+            let heard = |member: usize| {
+                let reading = line.bus.reading(member).map(|reading| reading.at);
+                reading.unwrap_or_default().max(self.listening_since)
+            };
+            let silent =
+                (0..line.joints.len()).find(|member| now.since(heard(*member)) > self.config.silence_max);
+            if let Some(place) = silent.and_then(|member| self.place(at, member)) {
                 return Some(Fault::BusSilent(place));
             }
         }

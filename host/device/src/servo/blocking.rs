@@ -2,7 +2,8 @@
 //!
 //! Apart from the rest because these are the only functions here that wait. The player uses none of them.
 
-use super::bus::{Armed, Bus, BusError, BusEvent, Commanded, Goal, Intervention};
+use super::bus::{Bus, BusError};
+use super::event::{Armed, BusEvent, Commanded, Goal, Intervention};
 use crate::clock::Clock;
 use std::time::Duration;
 

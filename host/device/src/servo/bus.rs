@@ -6,73 +6,17 @@
 
 use super::arming::{Arming, Refusal};
 use super::cycle::Cycle;
-use super::freshness::{Freshness, Verdict};
-use super::gather::{Gather, Gathered};
-use super::limit::{Change, Limiter};
+use super::event::{Armed, BusCounters, Presence};
+use super::limit::Limiter;
 use super::line::Line;
 use super::member::{Member, Reading, Supply};
 use super::register::RegisterError;
+use super::release::Releasing;
+use super::settings::BusSettings;
+use super::slot::Slot;
 use super::table::Table;
 use crate::clock::{Clock, Instant};
 use crate::transport::{Transport, TransportError};
-use std::time::Duration;
-
-/// One count of Bus Watchdog (e-manual).
-const WATCHDOG_STEP: Duration = Duration::from_millis(20);
-/// Highest count of Bus Watchdog (e-manual).
-const WATCHDOG_COUNTS_MAX: u128 = 127;
-/// One count of Return Delay Time (e-manual).
-const RETURN_DELAY_STEP: Duration = Duration::from_micros(2);
-
-/// How a bus is run. The defaults suit a USB adapter whose latency timer is at 1 to 4 ms.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BusSettings {
-    /// What the puppet calls the bus; for messages.
-    pub name: String,
-    /// Line speed.
-    pub baud: u32,
-    /// How long after the wire's own time an answer may come before the servo counts as silent.
-    pub answer_slack: Duration,
-    /// After so long without packets servos stop by themselves; 20 ms to 2540 ms.
-    pub watchdog: Duration,
-    /// Return Delay Time in steps of 2 us; 0 is fastest, some chains need 1.
-    pub return_delay_counts: u8,
-    /// Silence on the line after a missing answer, before the next question of arming or maintenance.
-    pub quiet: Duration,
-    /// A servo this warm is not armed, and reported while it runs.
-    pub hot_c: f64,
-    /// How often errors, torque, watchdog and supply are read in turn.
-    pub health_interval: Duration,
-    /// Cycles between attempts to hear a servo that does not answer.
-    pub probe_cycles: u32,
-}
-
-impl BusSettings {
-    /// The usual settings.
-    pub fn new(name: &str, baud: u32) -> Self {
-        Self {
-            name: name.to_owned(),
-            baud,
-            answer_slack: Duration::from_millis(8),
-            watchdog: Duration::from_millis(200),
-            return_delay_counts: 0,
-            quiet: Duration::from_millis(40),
-            // 5 below the lowest factory Temperature Limit of the X series (70 C).
-            hot_c: 65.0,
-            health_interval: Duration::from_millis(100),
-            probe_cycles: 50,
-        }
-    }
-
-    pub(super) fn watchdog_counts(&self) -> u8 {
-        let counts = self.watchdog.as_nanos().div_ceil(WATCHDOG_STEP.as_nanos());
-        counts.clamp(1, WATCHDOG_COUNTS_MAX) as u8
-    }
-
-    pub(super) fn return_delay(&self) -> Duration {
-        RETURN_DELAY_STEP * u32::from(self.return_delay_counts)
-    }
-}
 
 /// Why a bus cannot do what was asked.
 #[derive(Debug, thiserror::Error)]
@@ -150,154 +94,6 @@ impl BusError {
     }
 }
 
-/// What somebody would like.
-#[derive(Debug, Clone, Copy)]
-pub enum Goal<'a> {
-    /// An angle for each member, in member order; limited before it is sent.
-    Positions(&'a [f64]),
-    /// The shortest stop of every member.
-    Standstill,
-}
-
-/// What the limits changed about one member's goal.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Intervention {
-    /// Place in member order.
-    pub member: usize,
-    /// What was changed.
-    pub change: Change,
-}
-
-/// What became of a command.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Commanded {
-    /// Goals were limited and sent.
-    Sent,
-    /// Answers are still on the wire: nothing was sent, and the goals did not move.
-    Busy,
-    /// The pause was so long that the servos' watchdogs have stopped them: they are measured and pinned
-    /// again, and goals are taken when [`Bus::armed`] says so.
-    Lapsed,
-}
-
-/// Whether goals are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Armed {
-    /// Torque is off, or as somebody else left it.
-    No,
-    /// Being measured, configured and pinned.
-    Arming,
-    /// Pinned, torque on, watchdog armed.
-    Yes,
-    /// Torque is being switched off and this is being checked.
-    Releasing,
-}
-
-/// Whether a servo answers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Presence {
-    /// It answered the last time it was asked.
-    Present,
-    /// It did not, which may be the fault of one before it.
-    Doubtful,
-    /// It did not, twice, while all others did.
-    Absent,
-}
-
-/// Something the bus found out.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum BusEvent {
-    /// All members are pinned and have torque.
-    Armed,
-    /// See [`Bus::refusals`]; torque is being switched off.
-    ArmingRefused,
-    /// Torque is off, as far as members answer; see [`Bus::refusals`] for any that keep it.
-    Released,
-    /// A servo counts as absent now.
-    Silent {
-        /// Place in member order.
-        member: usize,
-    },
-    /// It answers again.
-    Returned {
-        /// Place in member order.
-        member: usize,
-    },
-    /// A late answer was recognised and thrown away.
-    Stale {
-        /// Place in member order.
-        member: usize,
-        /// How late, as far as its clock tells.
-        by_ms: f64,
-    },
-    /// A position that cannot be was thrown away.
-    Implausible {
-        /// Place in member order.
-        member: usize,
-        /// As sent.
-        counts: i64,
-    },
-    /// The servo's clock began again: it was rebooted and has lost torque and settings.
-    Restarted {
-        /// Place in member order.
-        member: usize,
-    },
-    /// It refused an instruction; the number is the e-manual's.
-    Refused {
-        /// Place in member order.
-        member: usize,
-        /// Number of the error.
-        error: u8,
-    },
-    /// Hardware Error Status is not zero.
-    HardwareError {
-        /// Place in member order.
-        member: usize,
-        /// Hardware Error Status.
-        bits: u8,
-    },
-    /// Warmer than the settings allow.
-    Hot {
-        /// Place in member order.
-        member: usize,
-        /// Present Temperature.
-        temperature_c: f64,
-    },
-    /// Torque is off although the bus is armed.
-    TorqueLost {
-        /// Place in member order.
-        member: usize,
-    },
-    /// The servo's watchdog has stopped it: all are being measured and pinned again.
-    WatchdogTripped {
-        /// Place in member order.
-        member: usize,
-    },
-}
-
-/// Counts since the bus was made.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct BusCounters {
-    /// Cycles sent.
-    pub cycles: u64,
-    /// Commands that found the wire busy.
-    pub busy: u64,
-    /// Late answers thrown away, whichever way they were recognised.
-    pub stale: u64,
-    /// Positions that cannot be.
-    pub implausible: u64,
-    /// Answers missing at their deadline.
-    pub timeouts: u64,
-    /// Damaged packets.
-    pub rejected: u64,
-    /// Our own instructions heard back.
-    pub echoes: u64,
-    /// Bytes written.
-    pub sent_bytes: u64,
-    /// Bytes read.
-    pub received_bytes: u64,
-}
-
 /// What the bus is about.
 #[derive(Debug, Clone)]
 pub(super) enum Mode {
@@ -305,72 +101,6 @@ pub(super) enum Mode {
     Arming(Arming),
     Armed,
     Releasing(Releasing),
-}
-
-/// Torque going off, until every member that answers has confirmed it.
-#[derive(Debug, Clone)]
-pub(super) struct Releasing {
-    pub(super) written: u8,
-    pub(super) gather: Gather,
-}
-
-/// A member and all that is known about it.
-#[derive(Debug)]
-pub(super) struct Slot {
-    pub(super) member: Member,
-    pub(super) reading: Option<Reading>,
-    pub(super) supply: Supply,
-    pub(super) presence: Presence,
-    pub(super) misses: u32,
-    pub(super) freshness: Freshness,
-    pub(super) limiter: Option<Limiter>,
-    /// The measured position that the goal is pinned to while arming.
-    pub(super) pin: Option<Reading>,
-    /// Min and Max Position Limit; none until read.
-    pub(super) accepts: Option<[i64; 2]>,
-}
-
-impl Slot {
-    fn new(member: Member) -> Self {
-        Self {
-            member,
-            reading: None,
-            supply: Supply::default(),
-            presence: Presence::Present,
-            misses: 0,
-            freshness: Freshness::default(),
-            limiter: None,
-            pin: None,
-            accepts: None,
-        }
-    }
-
-    pub(super) fn take_supply(&mut self, block: &[u8], address: u16) {
-        let fields = self.member.fields();
-        self.supply.voltage_v = fields.voltage.get_si(block, address).or(self.supply.voltage_v);
-        self.supply.temperature_c = fields
-            .temperature
-            .get_si(block, address)
-            .or(self.supply.temperature_c);
-    }
-
-    /// The reading in a gathered block, if it was measured after it was asked for.
-    pub(super) fn fresh_reading(&mut self, answer: &Gathered, address: u16) -> Option<Reading> {
-        let reading = self
-            .member
-            .reading(answer.bytes(), address, answer.measured)
-            .ok()?;
-        match self.freshness.judge(reading.tick, answer.sent, answer.received) {
-            Verdict::Fresh => {
-                self.reading = Some(reading);
-                self.presence = Presence::Present;
-                self.misses = 0;
-                Some(reading)
-            }
-            // A restarted servo is asked once more, then its clock is known again.
-            Verdict::Stale { .. } | Verdict::Restarted => None,
-        }
-    }
 }
 
 /// Servos on one line. See the module's opening for what it guarantees.

@@ -1,63 +1,31 @@
-//! The cycle: goals out and readings in, in one write; health in turn; and switching torque off.
+//! The cycle: goals out and readings in, in one write, and health in what is left of the period.
 //!
 //! A servo that does not answer can silence those behind it (some firmware waits for the one before), so
 //! members are asked in an order: those that answered first, then those that did not, the one to blame last.
 //! Only a member whose predecessors all answered is blamed.
 
-use super::bus::{
-    Armed, Bus, BusError, BusEvent, Commanded, Goal, Intervention, Mode, Presence, Releasing, Slot,
-};
+use super::bus::{Bus, BusError, Mode};
+use super::event::{Armed, BusEvent, Commanded, Goal, Intervention, Presence};
 use super::framing::dynamixel2;
 use super::freshness::Verdict;
-use super::gather::Gather;
+use super::health::{CONFIRMATIONS, Item};
 use super::line::{Answer, Progress};
-use super::table::{Block, Table};
+use super::slot::Slot;
+use super::table::Table;
 use crate::clock::Instant;
 use std::time::Duration;
 
-/// So often a member must be the one to blame before it counts as absent.
-const MISSES_MAX: u32 = 2;
-/// How often torque is switched off before a servo is reported to keep it.
-const RELEASE_TRIES: u8 = 5;
+/// So often in a row a member must be the one to blame before it counts as absent: at one answer in ten lost
+/// this happens by chance once in 10^10 cycles.
+const MISSES_MAX: u32 = 10;
 /// Time left in a period, beyond an exchange's own, for it to be begun.
 const MARGIN: Duration = Duration::from_millis(2);
-/// A health reading must say so twice in a row before torque or watchdog count as lost.
-const CONFIRMATIONS: u8 = 2;
 
 /// What is being read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Asked {
     Status,
     Health(Item),
-}
-
-/// The health readings, in turn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Item {
-    Errors,
-    Torque,
-    Watchdog,
-    Supply,
-}
-
-impl Item {
-    fn next(self) -> Self {
-        match self {
-            Self::Errors => Self::Torque,
-            Self::Torque => Self::Watchdog,
-            Self::Watchdog => Self::Supply,
-            Self::Supply => Self::Errors,
-        }
-    }
-
-    fn block(self, table: &Table) -> Block {
-        match self {
-            Self::Errors => table.error_block,
-            Self::Torque => table.torque_block,
-            Self::Watchdog => table.watchdog_block,
-            Self::Supply => table.supply,
-        }
-    }
 }
 
 /// Where the cycle stands.
@@ -182,67 +150,11 @@ impl Bus {
         }
     }
 
-    /// Switches torque off at once, whatever is going on, and goes on doing so until the servos that answer
-    /// confirm it. The joints sag: decelerate and stand first if there is time.
-    pub fn release(&mut self, now: Instant) -> Result<(), BusError> {
-        self.line.abandon();
-        for slot in &mut self.slots {
-            slot.limiter = None;
-            slot.pin = None;
-        }
-        self.cycle.restart(now);
-        let gather = Gather::new(self.table.torque_block, self.ids());
-        self.mode = Mode::Releasing(Releasing { written: 1, gather });
-        self.write_torque_off(now)
-    }
-
-    fn write_torque_off(&mut self, now: Instant) -> Result<(), BusError> {
-        let [torque, watchdog] = [self.table.torque.address, self.table.watchdog.address];
-        let out = self.line.packet();
-        let ids = || self.slots.iter().map(|slot| (slot.member.id(), [0]));
-        let _ = dynamixel2::sync_write(out, torque, ids());
-        // Twice: the first may have collided with an answer that was still on the wire.
-        let _ = dynamixel2::sync_write(out, torque, ids());
-        let _ = dynamixel2::sync_write(out, watchdog, ids());
-        self.send_unanswered(now)
-    }
-
-    fn poll_releasing(&mut self, now: Instant, emit: &mut dyn FnMut(BusEvent)) -> Result<(), BusError> {
-        let quiet = self.settings.quiet;
-        let Mode::Releasing(releasing) = &mut self.mode else {
-            return Ok(());
-        };
-        let asked = releasing.gather.advance(&mut self.line, quiet, now);
-        if !asked.map_err(|source| BusError::transport(&self.settings.name, source))? {
-            return Ok(());
-        }
-        let releasing = releasing.clone();
-        let address = releasing.gather.block().address;
-        let mut on = Vec::new();
-        for (at, answer) in releasing.gather.answers().iter().enumerate() {
-            let torque = answer.and_then(|answer| self.table.torque.get(answer.bytes(), address));
-            if let Some(slot) = self.slots.get_mut(at) {
-                slot.supply.torque = torque.map(|torque| torque != 0);
-            }
-            if torque.is_some_and(|torque| torque != 0) {
-                on.push((at, super::arming::Why::StillOn));
-            }
-        }
-        if !on.is_empty() && releasing.written < RELEASE_TRIES {
-            let gather = Gather::new(self.table.torque_block, self.ids());
-            self.mode = Mode::Releasing(Releasing {
-                written: releasing.written + 1,
-                gather,
-            });
-            return self.write_torque_off(now);
-        }
-        self.refuse(on);
-        self.mode = Mode::Loose;
-        emit(BusEvent::Released);
-        Ok(())
-    }
-
     fn limit(&mut self, goal: Goal<'_>, dt_secs: f64, note: &mut dyn FnMut(Intervention)) {
+        if dt_secs == 0.0 {
+            // The tick that completed arming: the pinned goals stand.
+            return;
+        }
         for (member, slot) in self.slots.iter_mut().enumerate() {
             let Some(limiter) = &mut slot.limiter else {
                 continue;
@@ -458,55 +370,5 @@ impl Slot {
         self.presence = Presence::Present;
         self.misses = 0;
         (was == Presence::Absent).then_some(BusEvent::Returned { member })
-    }
-
-    fn take_health(
-        &mut self,
-        table: &Table,
-        member: usize,
-        item: Item,
-        answer: &Answer<'_>,
-        confirmed: Option<&mut [u8; 2]>,
-        hot_c: f64,
-    ) -> Option<BusEvent> {
-        let data = answer.status.data;
-        let address = item.block(table).address;
-        let armed = self.limiter.is_some();
-        let mut unused = [0; 2];
-        let [torque_lost, tripped] = confirmed.unwrap_or(&mut unused);
-        match item {
-            Item::Errors => {
-                self.supply.error_bits = table.error.get(data, address)? as u8;
-                let bits = self.supply.error_bits;
-                (bits != 0).then_some(BusEvent::HardwareError { member, bits })
-            }
-            Item::Torque => {
-                let on = table.torque.get(data, address)? != 0;
-                self.supply.torque = Some(on);
-                *torque_lost = if armed && !on {
-                    torque_lost.saturating_add(1)
-                } else {
-                    0
-                };
-                (*torque_lost >= CONFIRMATIONS).then_some(BusEvent::TorqueLost { member })
-            }
-            Item::Watchdog => {
-                let trip = table.watchdog.get(data, address)? < 0 || data.first() == Some(&0xff);
-                *tripped = if armed && trip {
-                    tripped.saturating_add(1)
-                } else {
-                    0
-                };
-                (*tripped >= CONFIRMATIONS).then_some(BusEvent::WatchdogTripped { member })
-            }
-            Item::Supply => {
-                self.take_supply(data, address);
-                let temperature_c = self.supply.temperature_c?;
-                (temperature_c >= hot_c).then_some(BusEvent::Hot {
-                    member,
-                    temperature_c,
-                })
-            }
-        }
     }
 }

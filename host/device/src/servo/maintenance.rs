@@ -3,7 +3,8 @@
 //! It cannot move anything: goal registers, what may stand for them (Indirect Data) and torque are refused by
 //! name. Waiting happens here, on the clock that is given.
 
-use super::bus::{Armed, Bus, BusError};
+use super::bus::{Bus, BusError};
+use super::event::Armed;
 use super::framing::decoder::StatusError;
 use super::framing::dynamixel2::{self, BROADCAST_ID, FramingError, ID_MAX, STATUS_OVERHEAD_BYTES};
 use super::line::{Line, Progress};

@@ -18,14 +18,19 @@ pub mod register;
 mod arming;
 mod blocking;
 mod cycle;
+mod event;
 mod gather;
+mod health;
 mod line;
+mod release;
+mod settings;
+mod slot;
 mod table;
 
 pub use arming::{Refusal, Why};
-pub use bus::{
-    Armed, Bus, BusCounters, BusError, BusEvent, BusSettings, Commanded, Goal, Intervention, Presence,
-};
+pub use bus::{Bus, BusError};
+pub use event::{Armed, BusCounters, BusEvent, Commanded, Goal, Intervention, Presence};
 pub use limit::{Change, Limits, LimitsError};
-pub use maintenance::{Found, Maintenance, MaintenanceError};
+pub use maintenance::{Found, Heard, Maintenance, MaintenanceError};
 pub use member::{Load, Member, MemberError, Reading, Supply};
+pub use settings::BusSettings;

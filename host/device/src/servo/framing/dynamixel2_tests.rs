@@ -51,7 +51,10 @@ fn hex(text: &str) -> Vec<u8> {
         .collect()
 }
 
-fn documented() -> Vec<(String, u8, u8, Vec<u8>, Vec<u8>)> {
+/// What, id, instruction, parameters, bytes on the wire.
+type Row = (String, u8, u8, Vec<u8>, Vec<u8>);
+
+fn documented() -> Vec<Row> {
     let rows = DOCUMENTED.lines().filter(|line| !line.is_empty());
     rows.map(|line| {
         let [what, id, instruction, params, wire] =
@@ -70,7 +73,7 @@ fn documented() -> Vec<(String, u8, u8, Vec<u8>, Vec<u8>)> {
 fn decode(bytes: &[u8]) -> Vec<(u8, u8, Vec<u8>)> {
     let mut packets = Vec::new();
     Decoder::new().push(bytes, &mut |packet| {
-        packets.push((packet.id, packet.instruction, packet.params.to_vec()))
+        packets.push((packet.id, packet.instruction, packet.params.to_vec()));
     });
     packets
 }

@@ -1,0 +1,171 @@
+//! From servos in any state to servos that hold exactly where they are.
+//!
+//! The order is the point: everything is read before anything is written, settings are changed only where they
+//! differ and only with torque off, the goal is set to the measured position and read back before torque goes
+//! on, and read back once more with torque on, which is where the limiters start. The Bus Watchdog is armed with
+//! torque, so that servos stop by themselves when the host is gone.
+//! Sync writes are unanswered, so each write is proved by reading back; that also keeps a late answer from
+//! being taken for an acknowledgement.
+//!
+//! Source: e-manual, "Control Table of EEPROM Area" (locked while torque is on), "Bus Watchdog (98)"; users'
+//! reports of first-frame lunges, `docs/protocols/dynamixel2.md`.
+
+mod judge;
+mod refusal;
+mod writes;
+
+pub use refusal::{Refusal, Why};
+
+use super::bus::{Bus, BusError, Mode};
+use super::event::BusEvent;
+use super::gather::Gather;
+use super::limit::Limiter;
+use super::table::Block;
+use crate::clock::Instant;
+
+/// How far arming has come. Each stage begins with its writes, gathers a block, and judges it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stage {
+    Identity,
+    Errors,
+    Supply,
+    Settings { written: u8 },
+    Range,
+    Profile { written: u8 },
+    Measure { tries: u8 },
+    Pin { tries: u8 },
+    Torque { written: u8 },
+    Held { tries: u8 },
+}
+
+/// Arming under way.
+#[derive(Debug, Clone)]
+pub(super) struct Arming {
+    stage: Stage,
+    gather: Gather,
+}
+
+/// What follows from a stage's answers.
+enum Next {
+    Stage(Stage),
+    Refuse(Vec<(usize, Why)>),
+    Armed,
+}
+
+impl Arming {
+    fn begin(stage: Stage, block: Block, ids: Vec<u8>) -> Self {
+        let gather = Gather::new(block, ids).after_silence();
+        Self { stage, gather }
+    }
+}
+
+impl Bus {
+    /// Begins to read, configure, pin and switch on all members; [`Bus::poll`] carries it on, and
+    /// [`Bus::armed`] tells how far it is. Nothing moves: the first goals are the measured positions.
+    /// Refused as a whole when one member cannot be armed; [`Bus::refusals`] says why.
+    pub fn begin_arming(&mut self, now: Instant) -> Result<(), BusError> {
+        self.begin_stage(Stage::Identity, now)
+    }
+
+    /// As arming, but for members that were armed already: measures, pins, clears and re-arms the watchdog.
+    pub(super) fn begin_pinning(&mut self, now: Instant) -> Result<(), BusError> {
+        self.begin_stage(Stage::Measure { tries: 0 }, now)
+    }
+
+    fn begin_stage(&mut self, stage: Stage, now: Instant) -> Result<(), BusError> {
+        self.refusals.clear();
+        self.drain(now)?;
+        for slot in &mut self.slots {
+            slot.limiter = None;
+            slot.pin = None;
+            slot.held_rad = None;
+        }
+        let block = self.stage_block(stage);
+        self.mode = Mode::Arming(Arming::begin(stage, block, self.ids()));
+        Ok(())
+    }
+
+    fn stage_block(&self, stage: Stage) -> Block {
+        match stage {
+            Stage::Identity => self.table.identity,
+            Stage::Errors => self.table.error_block,
+            Stage::Supply => self.table.supply,
+            Stage::Settings { .. } => self.table.settings,
+            Stage::Range => self.table.range,
+            Stage::Profile { .. } => self.table.profile,
+            Stage::Measure { .. } => self.table.status,
+            Stage::Pin { .. } | Stage::Held { .. } => self.table.goal_and_status,
+            Stage::Torque { .. } => self.table.torque_block,
+        }
+    }
+
+    /// Carries arming on as far as it goes without waiting.
+    pub(super) fn poll_arming(
+        &mut self,
+        now: Instant,
+        emit: &mut dyn FnMut(BusEvent),
+    ) -> Result<(), BusError> {
+        loop {
+            let quiet = self.settings.quiet;
+            let Mode::Arming(arming) = &mut self.mode else {
+                return Ok(());
+            };
+            let asked = arming.gather.advance(&mut self.line, quiet, now);
+            if !asked.map_err(|source| BusError::transport(&self.settings.name, source))? {
+                return Ok(());
+            }
+            let arming = arming.clone();
+            match self.judge(&arming) {
+                Next::Stage(stage) => self.enter(stage, &arming, now)?,
+                Next::Refuse(found) => {
+                    self.refuse(found);
+                    emit(BusEvent::ArmingRefused);
+                    // Whatever was switched on so far must not stay so.
+                    return self.release(now);
+                }
+                Next::Armed => {
+                    self.become_armed(now);
+                    emit(BusEvent::Armed);
+                    return Ok(());
+                }
+            }
+        }
+    }
+
+    /// Does the writes that a stage begins with, then asks its question.
+    fn enter(&mut self, stage: Stage, arming: &Arming, now: Instant) -> Result<(), BusError> {
+        match stage {
+            Stage::Settings { written } if written > 0 => self.write_settings(arming, now)?,
+            Stage::Profile { .. } => self.write_profiles(now)?,
+            Stage::Pin { .. } => self.write_pins(now)?,
+            Stage::Torque { .. } => self.write_torque_on(now)?,
+            _ => {}
+        }
+        let gather = Gather::new(self.stage_block(stage), self.ids());
+        self.mode = Mode::Arming(Arming { stage, gather });
+        Ok(())
+    }
+
+    /// The limiters start at the goals that the servos hold, at rest: the first goal changes nothing.
+    fn become_armed(&mut self, now: Instant) {
+        for slot in &mut self.slots {
+            let limits = slot.member.limits();
+            slot.limiter = slot.held_rad.and_then(|rad| Limiter::at_rest(limits, rad).ok());
+        }
+        self.cycle.restart(now);
+        self.mode = Mode::Armed;
+    }
+
+    pub(super) fn refuse(&mut self, found: Vec<(usize, Why)>) {
+        for (at, why) in found {
+            if let Some(slot) = self.slots.get(at) {
+                self.refusals.push(Refusal {
+                    bus: self.settings.name.clone(),
+                    joint: slot.member.joint().to_owned(),
+                    id: slot.member.id(),
+                    why,
+                });
+            }
+        }
+    }
+}
