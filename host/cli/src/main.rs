@@ -1,1 +1,28 @@
-fn main() {}
+//! `dialrig`: everything the project does, from a terminal or a script.
+//!
+//! *Knows* the commands and their options, exit codes, and how results are shown to people and programs.
+//! *Must not know* how anything is computed: that is the other crates' affair; nor devices or servos beyond
+//! what `rig` and `bench` offer.
+//! *Start reading* at [`args`], then any file of [`command`]: one command a file, each an `Args` and a `run`.
+
+mod args;
+mod command;
+mod console;
+mod failure;
+mod input;
+mod interrupt;
+mod number;
+mod table;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use console::Console;
+
+fn main() -> ExitCode {
+    let args = args::Args::parse();
+    let console = Console::new(args.showing);
+    let result = args.command.run(&console);
+    console.finish(result).into()
+}

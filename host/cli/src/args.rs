@@ -1,0 +1,64 @@
+//! The command line as a whole: options every command has, and the list of commands.
+
+use clap::{ArgAction, Parser};
+
+use crate::command::Command;
+
+const EXAMPLES: &str = "\
+Examples:
+  dialrig figure shows/salute/figure/ar.str
+  dialrig sample shows/salute --fps 30 > salute.jsonl
+  dialrig net run networks/figure.ps300 --dial 1:0.25@0.5 --watch 'turn<1>'
+
+Exit codes: 0 done, 1 refused or failed, 2 wrong usage, 3 ended by a device fault in a safe state, \
+4 ended by a device fault whose safe state could not be confirmed.";
+
+/// Pose articulated figures with physical controls; play them on screen and on servo puppets.
+#[derive(Debug, Parser)]
+#[command(name = "dialrig", version, after_help = EXAMPLES, arg_required_else_help = true)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    pub(crate) showing: Showing,
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// How results and remarks are shown.
+#[derive(Clone, Copy, Debug, clap::Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct Showing {
+    /// One JSON object a line on standard output; errors as JSON too
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+    /// No progress, warnings or remarks; errors only
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+    /// More about what is done, on standard error; twice for debugging
+    #[arg(short, long, global = true, action = ArgAction::Count)]
+    pub(crate) verbose: u8,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_shows_an_example() {
+        fn visit(command: &clap::Command) {
+            let help = command.get_after_help().map(ToString::to_string);
+            let name = command.get_name();
+            assert!(
+                help.is_some_and(|help| help.contains("dialrig")),
+                "`{name} --help` has no example"
+            );
+            command.get_subcommands().for_each(visit);
+        }
+        visit(&Args::command());
+    }
+}

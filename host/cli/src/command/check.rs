@@ -1,0 +1,73 @@
+//! `dialrig check`: everything that is wrong with files, not only the first thing.
+//!
+//! With `--json` the findings are the result and go to standard output.
+
+use std::path::PathBuf;
+
+use rig::document::Findings;
+use rig::document::check::check_file;
+
+use crate::console::{Console, RemarkRecord, Weight};
+use crate::failure::{Exit, Failure};
+
+const EXAMPLES: &str = "\
+Examples:
+  dialrig check shows/salute
+  dialrig check walk.bvh networks/*.ps300 --json";
+
+/// Checks show folders, show.toml, clips (.toml), .str, .pri, .shp, .ps300 and .bvh; exits with 1 if one of
+/// them has an error.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Files and show folders
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
+    let progress = console.progress(args.files.len() as u64, "checking");
+    let mut found = Findings::default();
+    for file in &args.files {
+        let here = check_file(file);
+        found.errors.extend(here.errors);
+        found.warnings.extend(here.warnings);
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    report(&found, console)?;
+    if found.errors.is_empty() {
+        console.remark(format_args!(
+            "{} in order{}",
+            counted(args.files.len(), "file"),
+            match found.warnings.len() {
+                0 => String::new(),
+                count => format!(", {}", counted(count, "warning")),
+            }
+        ));
+        Ok(Exit::Done)
+    } else {
+        Ok(Exit::Refused)
+    }
+}
+
+/// Shows findings: for programs as the result, for people beside it.
+pub(super) fn report(found: &Findings, console: &Console) -> Result<(), Failure> {
+    if !console.json() {
+        console.warn(&found.warnings);
+        console.errors(&found.errors);
+        return Ok(());
+    }
+    for warning in &found.warnings {
+        console.record(&RemarkRecord::of_file(Weight::Warning, warning))?;
+    }
+    for error in &found.errors {
+        console.record(&RemarkRecord::of_file(Weight::Error, error))?;
+    }
+    Ok(())
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}

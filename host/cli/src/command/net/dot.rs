@@ -1,0 +1,33 @@
+//! `dialrig net dot`: a network as a drawing.
+
+use std::path::PathBuf;
+
+use rig::document::{FileErrors, Findings};
+
+use super::program;
+use crate::console::Console;
+use crate::failure::{Exit, Failure};
+
+const EXAMPLES: &str = "\
+Examples:
+  dialrig net dot networks/figure.ps300 | dot -Tsvg > figure.svg";
+
+/// Draws functions, display nodes and connections as a graphviz digraph.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Network files, loaded one after the other; `-` is standard input
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+}
+
+pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
+    let mut found = Findings::default();
+    let machine = program::load(&args.files, console, &mut found);
+    console.warn(&found.warnings);
+    if !found.errors.is_empty() {
+        return Err(FileErrors(found.errors).into());
+    }
+    console.line(machine.dot().trim_end())?;
+    Ok(Exit::Done)
+}

@@ -1,0 +1,154 @@
+//! The reference page of functions and devices: `docs/ps300/functions.md`.
+
+use std::fmt::Write;
+
+use ps300::intrinsic::{self, ABSENT, InputSpec, Preset, Spec, Times};
+use ps300::machine::devices::{READOUTS, SOURCES};
+
+const HEAD: &str = "\
+# Functions of the network
+
+<!-- Written by `dialrig net functions --markdown`; change the tables in `host/ps300/src/intrinsic`. -->
+
+`name := F:TYPE;` makes an instance, `name := F:TYPE(n);` one of a sized type. It fires when every active input
+has a message, and uses up one of each. An input marked *c* is constant: it keeps its latest message, and setting it
+fires nothing. After *=* stands what a constant input holds at first; without it the function waits for a value.
+
+How far a row can be trusted: *used*, working programs of the time agree with it; *high*, *medium*, *low*,
+recollected, less and less surely; *project*, dialrig's own rule or function. Sources D0 are programs of 1989.
+";
+
+const DEVICES: &str = "
+## Devices
+
+Every machine has these names; commands connect them and cannot redefine them.
+
+| name | sends | source | confidence |
+|---|---|---|---|
+";
+
+const READOUTS_HEAD: &str = "
+| name | takes at \\<1> | shows |
+|---|---|---|
+";
+
+const ABSENT_HEAD: &str = "
+## Known by name only
+
+These existed and cannot be run: what they did is not on record, or needs a machine that is not there.
+
+| function | was for |
+|---|---|
+";
+
+/// The whole page.
+pub(super) fn page() -> String {
+    let mut page = String::from(HEAD);
+    for spec in intrinsic::table() {
+        function(&mut page, spec);
+    }
+    page.push_str(DEVICES);
+    for source in &SOURCES {
+        row(
+            &mut page,
+            &[
+                source.name,
+                source.behaviour,
+                source.source,
+                source.confidence.name(),
+            ],
+        );
+    }
+    page.push_str(READOUTS_HEAD);
+    for readout in &READOUTS {
+        let name = match readout.numbers {
+            Some((first, last)) => format!("{0}{first} … {0}{last}", readout.name),
+            None => readout.name.to_owned(),
+        };
+        row(&mut page, &[&name, &readout.kinds.to_string(), readout.behaviour]);
+    }
+    page.push_str(ABSENT_HEAD);
+    for absent in ABSENT {
+        row(&mut page, &[absent.name, absent.purpose]);
+    }
+    page
+}
+
+fn row(page: &mut String, cells: &[&str]) {
+    let cells: Vec<String> = cells.iter().map(|cell| escaped(cell)).collect();
+    // Writing to a string cannot fail.
+    let _ = writeln!(page, "| {} |", cells.join(" | "));
+}
+
+fn function(page: &mut String, spec: &Spec) {
+    let size = match spec.sizes {
+        Some((least, most)) => format!("(n), n from {least} to {most}"),
+        None => String::new(),
+    };
+    // Writing to a string cannot fail, here and below.
+    let _ = writeln!(page, "\n## {}{size}\n\n{}\n", spec.name, escaped(spec.behaviour));
+    let mut range = Range::default();
+    for input in spec.inputs {
+        let number = escaped(&range.next(input.times));
+        let _ = writeln!(
+            page,
+            "- in {number}{} {}{}",
+            mark(input),
+            input.kinds,
+            preset(input)
+        );
+    }
+    let mut range = Range::default();
+    for output in spec.outputs {
+        let number = escaped(&range.next(output.times));
+        let _ = writeln!(page, "- out {number} {}", output.kinds);
+    }
+    let _ = writeln!(page, "\n{} · {}", spec.confidence.name(), escaped(spec.source));
+}
+
+fn mark(input: &InputSpec) -> &'static str {
+    if input.constant { " *c*" } else { "" }
+}
+
+fn preset(input: &InputSpec) -> String {
+    match (input.preset, input.preset.text()) {
+        (Preset::Rule(words), _) => format!("; {}", escaped(words)),
+        (_, Some(text)) => format!(" = {text}"),
+        (_, None) => String::new(),
+    }
+}
+
+/// Numbers of ports in order: `<1>`, `<2> … <n>`, `<n>`. No row but the last stands behind several.
+#[derive(Default)]
+struct Range {
+    single: usize,
+    /// Ports less than the size among those before, once there was a row that stands for several.
+    after_sized: Option<usize>,
+}
+
+impl Range {
+    fn next(&mut self, times: Times) -> String {
+        let first = self.single + 1;
+        match (times, &mut self.after_sized) {
+            (Times::Once, None) => {
+                self.single += 1;
+                format!("<{first}>")
+            }
+            (Times::Once, Some(0)) => "<n+1>".to_owned(),
+            (Times::Once, Some(_)) => "<n>".to_owned(),
+            (Times::Size, after) => {
+                *after = Some(0);
+                format!("<{first}> … <n>")
+            }
+            (Times::SizeLessOne, after) => {
+                *after = Some(1);
+                format!("<{first}> … <n-1>")
+            }
+        }
+    }
+}
+
+/// Text that is not taken for HTML or for the bounds of a cell.
+fn escaped(text: &str) -> String {
+    text.replace('<', "\\<").replace('|', "\\|").replace('*', "\\*")
+}
