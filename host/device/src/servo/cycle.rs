@@ -361,7 +361,7 @@ impl Slot {
             Ok(reading) => reading,
             Err(counts) => return Some(BusEvent::Implausible { member, counts }),
         };
-        match self.freshness.judge(reading.tick, answer.sent, now) {
+        match self.freshness.judge(reading.tick, answer.sent, answer.turn, now) {
             Verdict::Fresh => {}
             Verdict::Stale { by_ms } => return Some(BusEvent::Stale { member, by_ms }),
             Verdict::Restarted => return Some(BusEvent::Restarted { member }),

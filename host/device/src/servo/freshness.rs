@@ -2,12 +2,14 @@
 //!
 //! The protocol has no sequence number, but every block read holds the servo's Realtime Tick (1 ms, 0 to
 //! 32767). An answer was measured after its request was sent and before it was received, so with
-//! `offset = tick - host time` each answer bounds the unknown offset from both sides; an answer whose tick
-//! lies before its request was sent, by the smallest offset possible, is an old one.
+//! `offset = tick - host time` each answer bounds the unknown offset from both sides: the smallest
+//! `tick - sent` seen is at most the servo's turn in the chain too large. An answer whose tick lies before its
+//! request was sent, by the smallest offset possible, is an old one.
 //!
 //! Source: e-manual, "Realtime Tick (120)"; the method is this project's.
 
 use crate::clock::Instant;
+use std::time::Duration;
 
 /// The tick's period: it counts to 32767 and starts again at 0.
 const TICK_PERIOD_MS: f64 = 32_768.0;
@@ -42,8 +44,10 @@ pub struct Freshness {
 
 #[derive(Debug, Clone, Copy)]
 struct Known {
-    /// Estimated tick at host time zero, modulo the period.
+    /// The smallest `tick - sent`, modulo the period, allowing for drift since.
     offset_ms: f64,
+    /// How much of it may be the wait for the servo's turn, which may be shorter another time.
+    turn_ms: f64,
     /// When the last fresh answer's request was sent.
     sent: Instant,
 }
@@ -54,34 +58,65 @@ impl Freshness {
         self.known = None;
     }
 
-    /// Judges one answer, and learns from it when it is fresh.
-    pub fn judge(&mut self, tick: u16, sent: Instant, received: Instant) -> Verdict {
+    /// Judges one answer, and learns from it when it is fresh. `turn` is how long after `sent` the servo
+    /// measures at the latest, if nothing is delayed.
+    pub fn judge(&mut self, tick: u16, sent: Instant, turn: Duration, received: Instant) -> Verdict {
         let at_sent = offset(tick, sent);
-        let fresh = |offset_ms| Some(Known { offset_ms, sent });
+        let turn_ms = turn.as_secs_f64() * 1e3;
         let Some(known) = self
             .known
             .filter(|known| millis(sent) - millis(known.sent) < FORGET_MS)
         else {
-            self.known = fresh(at_sent);
+            self.known = Some(Known {
+                offset_ms: at_sent,
+                turn_ms,
+                sent,
+            });
             return Verdict::Fresh;
         };
         let gap_ms = (millis(sent) - millis(known.sent)).max(0.0);
         let slack_ms = TOLERANCE_MS + DRIFT * gap_ms;
         let ahead_ms = wrapped(at_sent - known.offset_ms);
-        let since_start_ms = f64::from(tick);
-        let began_since = since_start_ms <= millis(received) - millis(known.sent) + slack_ms;
+        let began_since = f64::from(tick) <= millis(received) - millis(known.sent) + slack_ms;
         if ahead_ms.abs() > RESTART_MS && began_since {
             self.known = None;
             return Verdict::Restarted;
         }
-        if ahead_ms < -slack_ms {
+        if ahead_ms < -slack_ms - (known.turn_ms - turn_ms).max(0.0) {
             return Verdict::Stale { by_ms: -ahead_ms };
         }
-        // Up with drift, down with the promptest answer, and never below what this answer proves.
-        let leaked = known.offset_ms + ahead_ms.min(DRIFT * gap_ms);
-        let proved = wrapped(offset(tick, received) - leaked);
-        self.known = fresh(leaked + proved.max(0.0));
+        self.known = Some(known.learned(tick, turn_ms, sent, received));
         Verdict::Fresh
+    }
+}
+
+impl Known {
+    /// Down at once with a prompter answer, up slowly with drift, and never below what an answer proves: it
+    /// was measured before it was received.
+    fn learned(self, tick: u16, turn_ms: f64, sent: Instant, received: Instant) -> Self {
+        let gap_ms = (millis(sent) - millis(self.sent)).max(0.0);
+        let ahead_ms = wrapped(offset(tick, sent) - self.offset_ms);
+        let offset_ms = self.offset_ms + ahead_ms.min(DRIFT * gap_ms);
+        let proved_ms = wrapped(offset(tick, received) - offset_ms);
+        if proved_ms > 0.0 {
+            Self {
+                offset_ms: offset_ms + proved_ms,
+                turn_ms: 0.0,
+                sent,
+            }
+        } else if ahead_ms < 0.0 {
+            Self {
+                offset_ms,
+                turn_ms,
+                sent,
+            }
+        } else {
+            Self {
+                offset_ms,
+                turn_ms: self.turn_ms.max(turn_ms),
+                sent,
+            }
+        }
     }
 }
 

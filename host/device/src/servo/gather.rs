@@ -24,6 +24,7 @@ pub(super) struct Gathered {
     length: usize,
     pub(super) error: StatusError,
     pub(super) sent: Instant,
+    pub(super) turn: Duration,
     pub(super) measured: Instant,
     pub(super) received: Instant,
 }
@@ -132,6 +133,7 @@ fn keep(ids: &[u8], answers: &mut [Option<Gathered>], answer: &Answer<'_>, now: 
             length,
             error: answer.status.error,
             sent: answer.sent,
+            turn: answer.turn,
             measured: answer.measured,
             received: now,
         });

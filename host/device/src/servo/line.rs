@@ -77,6 +77,8 @@ pub(super) struct Answer<'a> {
     pub(super) status: Status<'a>,
     /// When its request was handed to the line.
     pub(super) sent: Instant,
+    /// How long after that its turn to measure comes, at the latest.
+    pub(super) turn: Duration,
     /// When the servo should have measured: between `sent` and now.
     pub(super) measured: Instant,
 }
@@ -318,6 +320,7 @@ impl Line {
                     take(Answer {
                         status,
                         sent: *sent,
+                        turn: asked.expected,
                         measured,
                     });
                 }

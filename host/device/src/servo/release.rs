@@ -43,7 +43,11 @@ impl Bus {
         self.send_unanswered(now)
     }
 
-    pub(super) fn poll_releasing(&mut self, now: Instant, emit: &mut dyn FnMut(BusEvent)) -> Result<(), BusError> {
+    pub(super) fn poll_releasing(
+        &mut self,
+        now: Instant,
+        emit: &mut dyn FnMut(BusEvent),
+    ) -> Result<(), BusError> {
         let quiet = self.settings.quiet;
         let Mode::Releasing(releasing) = &mut self.mode else {
             return Ok(());

@@ -55,7 +55,10 @@ impl Slot {
             .member
             .reading(answer.bytes(), address, answer.measured)
             .ok()?;
-        match self.freshness.judge(reading.tick, answer.sent, answer.received) {
+        match self
+            .freshness
+            .judge(reading.tick, answer.sent, answer.turn, answer.received)
+        {
             Verdict::Fresh => {
                 self.reading = Some(reading);
                 self.presence = Presence::Present;
