@@ -173,7 +173,7 @@ mod tests {
         let mut tokens = Vec::new();
         for event in events {
             desk.hear(event, SOURCE, 0.0, &mut |name, port, value| {
-                tokens.push(format!("{name}<{port}> {value:?}"))
+                tokens.push(format!("{name}<{port}> {value:?}"));
             });
         }
         tokens

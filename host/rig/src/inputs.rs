@@ -120,7 +120,7 @@ impl Inputs {
     }
 
     /// Tells every device what the desk shows.
-    pub(crate) fn show<'a>(&mut self, lamps: u32, labels: impl Iterator<Item = &'a str> + Clone) {
+    pub(crate) fn show<'a>(&mut self, lamps: u32, labels: &(impl Iterator<Item = &'a str> + Clone)) {
         for seat in &mut self.seats {
             seat.show(lamps, labels.clone());
         }
@@ -151,13 +151,12 @@ impl Inputs {
 impl Seat {
     fn new(spec: InputSpec, profiles: &Profiles) -> Result<Self, InputError> {
         let name = spec.name.clone();
-        let (make, baud, counts_per_turn, dials): (Make, u32, f64, u8) = match profiles.knobs(&spec.profile) {
-            Ok(knobs) => {
+        let (make, baud, counts_per_turn, dials): (Make, u32, f64, u8) =
+            if let Ok(knobs) = profiles.knobs(&spec.profile) {
                 let profile = knobs.clone();
                 let make: Make = Box::new(move |line| Device::knobs(name.clone(), &profile, line));
                 (make, knobs.baud, f64::from(knobs.counts_per_turn), knobs.dials)
-            }
-            Err(_) => {
+            } else {
                 let tablet = profiles
                     .tablet(&spec.profile)
                     .map_err(|source| InputError::Profile {
@@ -167,8 +166,7 @@ impl Seat {
                 let profile = tablet.clone();
                 let make: Make = Box::new(move |line| Device::tablet(name.clone(), &profile, line));
                 (make, tablet.baud, 1.0, 0)
-            }
-        };
+            };
         Ok(Self {
             spec,
             make,

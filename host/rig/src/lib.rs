@@ -12,6 +12,7 @@ pub mod document;
 pub mod history;
 mod inputs;
 pub mod journal;
+pub mod live;
 mod notes;
 pub mod parameters;
 mod ports;
@@ -28,6 +29,7 @@ pub use command::{
     ViewCommand,
 };
 pub use inputs::{InputError, InputSpec};
+pub use live::{Live, LiveError};
 pub use ports::{Found, Ports, TouchError};
 pub use puppet::{Pace, PuppetSpec};
 pub use rig::{Rig, RigError, RigOptions};

@@ -70,23 +70,23 @@ fn step(value: &Value) -> Option<i32> {
     real(value).map(|v| v.round() as i32).filter(|&v| v != 0)
 }
 
-fn pose(command: PoseCommand) -> Option<Request> {
-    Some(Request::Command(Command::Pose(command)))
+fn pose(command: PoseCommand) -> Request {
+    Request::Command(Command::Pose(command))
 }
 
-fn time(command: TransportCommand) -> Option<Request> {
-    Some(Request::Command(Command::Transport(command)))
+fn time(command: TransportCommand) -> Request {
+    Request::Command(Command::Transport(command))
 }
 
-fn view(azimuth_by_rad: f64, elevation_by_rad: f64) -> Option<Request> {
-    Some(Request::Command(Command::View(ViewCommand::Turn {
+fn view(azimuth_by_rad: f64, elevation_by_rad: f64) -> Request {
+    Request::Command(Command::View(ViewCommand::Turn {
         azimuth_by_rad,
         elevation_by_rad,
-    })))
+    }))
 }
 
-fn puppet(command: PuppetCommand) -> Option<Request> {
-    Some(Request::Command(Command::Puppet(command)))
+fn puppet(command: PuppetCommand) -> Request {
+    Request::Command(Command::Puppet(command))
 }
 
 /// All parameters but the figure's links, which are named after the figure (`FIGURE.rua`, see [`LINK`]).
@@ -98,8 +98,8 @@ pub const PARAMETERS: &[Parameter] = &[
                 Kinds::VECTOR,
                 "cursor in the front view, −1…1, y up: the selected link follows it",
                 |v| match v {
-                    Value::Vector2(p) if p.is_finite() => pose(PoseCommand::Cursor([p.x, p.y])),
-                    Value::Vector3(p) if p.is_finite() => pose(PoseCommand::Cursor([p.x, p.y])),
+                    Value::Vector2(p) if p.is_finite() => Some(pose(PoseCommand::Cursor([p.x, p.y]))),
+                    Value::Vector3(p) if p.is_finite() => Some(pose(PoseCommand::Cursor([p.x, p.y]))),
                     _ => None,
                 },
             ),
@@ -107,31 +107,31 @@ pub const PARAMETERS: &[Parameter] = &[
                 Kinds::NUMBER,
                 "side of the sphere inside the circle: 1 near, 2 far",
                 |v| match real(v)? {
-                    side if side >= 1.5 => pose(PoseCommand::Side(Side::Far)),
-                    _ => pose(PoseCommand::Side(Side::Near)),
+                    side if side >= 1.5 => Some(pose(PoseCommand::Side(Side::Far))),
+                    _ => Some(pose(PoseCommand::Side(Side::Near))),
                 },
             ),
             inlet(
                 Kinds::ANY,
                 "any message fixes the selected link and selects the next",
-                |_| pose(PoseCommand::Place),
+                |_| Some(pose(PoseCommand::Place)),
             ),
             inlet(Kinds::NUMBER, "selects a later (positive) or earlier link", |v| {
-                pose(PoseCommand::Step(step(v)?))
+                Some(pose(PoseCommand::Step(step(v)?)))
             }),
             inlet(
                 Kinds::NUMBER,
                 "twists the selected link about its axis, degrees, added",
-                |v| pose(PoseCommand::Twist { by_rad: degrees(v)? }),
+                |v| Some(pose(PoseCommand::Twist { by_rad: degrees(v)? })),
             ),
             inlet(Kinds::VECTOR, "moves the root, metres, added", |v| match v {
-                Value::Vector3(p) if p.is_finite() => pose(PoseCommand::RootBy(p.to_array())),
+                Value::Vector3(p) if p.is_finite() => Some(pose(PoseCommand::RootBy(p.to_array()))),
                 _ => None,
             }),
             inlet(
                 Kinds::ANY,
                 "any message takes over the pose of the clip at the present time",
-                |_| pose(PoseCommand::FromClip),
+                |_| Some(pose(PoseCommand::FromClip)),
             ),
         ],
     },
@@ -139,9 +139,11 @@ pub const PARAMETERS: &[Parameter] = &[
         name: "VIEW",
         inlets: &[
             inlet(Kinds::NUMBER, "turns about the vertical, degrees, added", |v| {
-                view(degrees(v)?, 0.0)
+                Some(view(degrees(v)?, 0.0))
             }),
-            inlet(Kinds::NUMBER, "tilts, degrees, added", |v| view(0.0, degrees(v)?)),
+            inlet(Kinds::NUMBER, "tilts, degrees, added", |v| {
+                Some(view(0.0, degrees(v)?))
+            }),
             inlet(Kinds::NUMBER, "zooms: one unit doubles the picture", |v| {
                 Some(Request::Command(Command::View(ViewCommand::Zoom {
                     by: real(v)?.clamp(-8.0, 8.0).exp2(),
@@ -156,19 +158,19 @@ pub const PARAMETERS: &[Parameter] = &[
         name: "TIME",
         inlets: &[
             inlet(Kinds::NUMBER, "moves time, seconds, added", |v| {
-                time(TransportCommand::Nudge { by_secs: real(v)? })
+                Some(time(TransportCommand::Nudge { by_secs: real(v)? }))
             }),
             inlet(Kinds::NUMBER, "goes to a time, seconds", |v| {
-                time(TransportCommand::Seek { secs: real(v)? })
+                Some(time(TransportCommand::Seek { secs: real(v)? }))
             }),
             inlet(Kinds::ANY, "any message plays, or pauses while playing", |_| {
-                time(TransportCommand::Toggle)
+                Some(time(TransportCommand::Toggle))
             }),
             inlet(Kinds::NUMBER, "goes to a later (positive) or earlier key", |v| {
-                time(TransportCommand::Key(step(v)?))
+                Some(time(TransportCommand::Key(step(v)?)))
             }),
             inlet(Kinds::ANY, "any message switches looping", |_| {
-                time(TransportCommand::ToggleLoop)
+                Some(time(TransportCommand::ToggleLoop))
             }),
         ],
     },
@@ -208,25 +210,27 @@ pub const PARAMETERS: &[Parameter] = &[
             inlet(
                 Kinds::ANY,
                 "any message arms: goals pinned to the measured pose, then torque",
-                |_| puppet(PuppetCommand::Arm),
+                |_| Some(puppet(PuppetCommand::Arm)),
             ),
             inlet(Kinds::ANY, "any message plays the clip", |_| {
-                puppet(PuppetCommand::Play)
+                Some(puppet(PuppetCommand::Play))
             }),
-            inlet(Kinds::ANY, "any message holds", |_| puppet(PuppetCommand::Hold)),
+            inlet(Kinds::ANY, "any message holds", |_| {
+                Some(puppet(PuppetCommand::Hold))
+            }),
             inlet(Kinds::ANY, "any message slows down and lets go", |_| {
-                puppet(PuppetCommand::Release)
+                Some(puppet(PuppetCommand::Release))
             }),
             inlet(Kinds::ANY, "any message stops at once and latches", |_| {
-                puppet(PuppetCommand::Stop)
+                Some(puppet(PuppetCommand::Stop))
             }),
             inlet(Kinds::ANY, "any message leaves the faulted state", |_| {
-                puppet(PuppetCommand::Reset)
+                Some(puppet(PuppetCommand::Reset))
             }),
             inlet(
                 Kinds::ANY,
                 "any message lets the puppet follow the figure live",
-                |_| puppet(PuppetCommand::Follow),
+                |_| Some(puppet(PuppetCommand::Follow)),
             ),
         ],
     },
@@ -258,14 +262,14 @@ pub const LINK: &[(Kinds, &str)] = &[
 /// What a link's inlet asks for.
 pub(crate) fn link_request(link: u16, port: u8, value: &Value) -> Option<Request> {
     match (port, value) {
-        (1, Value::Vector3(d)) if d.is_finite() => pose(PoseCommand::LinkDirection {
+        (1, Value::Vector3(d)) if d.is_finite() => Some(pose(PoseCommand::LinkDirection {
             link,
             direction: d.to_array(),
-        }),
-        (2, value) => pose(PoseCommand::LinkTwist {
+        })),
+        (2, value) => Some(pose(PoseCommand::LinkTwist {
             link,
             twist_rad: degrees(value)?,
-        }),
+        })),
         _ => None,
     }
 }
@@ -279,10 +283,25 @@ mod tests {
     fn values_become_requests() {
         let cursor = Value::Vector2(DVec2::new(0.25, -0.5));
         let rows = [
-            ("POSE", 1, cursor, pose(PoseCommand::Cursor([0.25, -0.5]))),
-            ("pose", 2, Value::Integer(2), pose(PoseCommand::Side(Side::Far))),
-            ("VIEW", 1, Value::Real(180.0), view(std::f64::consts::PI, 0.0)),
-            ("TIME", 4, Value::Real(-1.0), time(TransportCommand::Key(-1))),
+            ("POSE", 1, cursor, Some(pose(PoseCommand::Cursor([0.25, -0.5])))),
+            (
+                "pose",
+                2,
+                Value::Integer(2),
+                Some(pose(PoseCommand::Side(Side::Far))),
+            ),
+            (
+                "VIEW",
+                1,
+                Value::Real(180.0),
+                Some(view(std::f64::consts::PI, 0.0)),
+            ),
+            (
+                "TIME",
+                4,
+                Value::Real(-1.0),
+                Some(time(TransportCommand::Key(-1))),
+            ),
             ("TIME", 4, Value::Real(0.2), None),
             ("TIME", 1, Value::Real(f64::NAN), None),
             ("KEYS", 1, Value::Boolean(true), Some(Request::StoreKey)),

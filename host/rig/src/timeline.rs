@@ -47,10 +47,9 @@ impl Timeline {
     /// being where it was, so that the pose of the clip is to be shown.
     pub(crate) fn apply(&mut self, command: &TransportCommand) -> Result<bool, String> {
         match *command {
-            TransportCommand::Play => self.play(),
-            TransportCommand::Pause => self.view.playing = false,
             TransportCommand::Toggle if self.view.playing => self.view.playing = false,
-            TransportCommand::Toggle => self.play(),
+            TransportCommand::Play | TransportCommand::Toggle => self.play(),
+            TransportCommand::Pause => self.view.playing = false,
             TransportCommand::Seek { secs } => return self.seek(secs),
             TransportCommand::Nudge { by_secs } => return self.seek(self.view.secs + by_secs),
             TransportCommand::Loop(on) => self.view.looped = on,

@@ -2,7 +2,7 @@
 //!
 //! *Knows* the file formats (`docs/formats.md`): show folders, the thesis's structure files, BVH, CSV.
 //! *Must not know* devices, windows, or what time it is.
-//! *Start reading* at [`Show`], then [`folder`] (a folder becomes a show) and [`save`] (and back).
+//! *Start reading* at [`Show`], then [`folder`] (a folder becomes a show) and [`save`](mod@save) (and back).
 
 pub mod bvh;
 pub mod check;

@@ -109,12 +109,11 @@ impl Runner {
     /// Hands an order over; fails when nobody is there to take it.
     pub(super) fn order(&mut self, order: Order) -> Result<(), ()> {
         match self {
-            Self::Waiting => Err(()),
             Self::Inline(inline) if inline.orders.len() < ORDERS_MAX => {
                 inline.orders.push(order);
                 Ok(())
             }
-            Self::Inline(_) => Err(()),
+            Self::Waiting | Self::Inline(_) => Err(()),
             Self::Threaded(threaded) => threaded.messages.try_send(Message::Order(order)).map_err(|_| ()),
         }
     }
@@ -160,7 +159,7 @@ impl Runner {
                 let report = inline.player.tick(now, &mut inline.orders.drain(..));
                 inline.told.about(report, remarks);
                 if report.arming_refused {
-                    let refusals = inline.player.refusals().map(|refusal| refusal.to_string());
+                    let refusals = inline.player.refusals().map(ToString::to_string);
                     remarks.extend(refusals.map(|refusal| (NoteLevel::Warning, refusal)));
                 }
             }

@@ -182,7 +182,7 @@ impl Rig {
             self.ports.as_mut(),
             &mut |event, source| {
                 desk.hear(event, source, secs, &mut |instance, output, value| {
-                    wiring.hear(instance, output, value)
+                    wiring.hear(instance, output, value);
                 });
             },
             &mut |change| match change {
@@ -226,7 +226,7 @@ impl Rig {
             .iter()
             .chain(&panel.key_labels)
             .map(String::as_str);
-        self.inputs.show(panel.lamps, labels);
+        self.inputs.show(panel.lamps, &labels);
     }
 
     /// Puts the show's figure on stage, in its rest pose.

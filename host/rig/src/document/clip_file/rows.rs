@@ -1,7 +1,7 @@
 //! The row form of clip files: one line of numbers a key, for clips made by recording.
 //!
 //! Apart because it trades readability for size: a row holds `secs x y z` of the root and then α β γ of
-//! each link in degrees (see [`zyz`](crate::document::zyz)), rounded to 1e-7 degrees. That moves the end of a link by
+//! each link in degrees (see [`zyz`]), rounded to 1e-7 degrees. That moves the end of a link by
 //! less than two billionths of its length.
 
 use std::fmt::Write as _;
