@@ -186,6 +186,9 @@ impl Names {
 
     /// Names that might have been meant by one that denotes nothing, at most three.
     pub(crate) fn alike(&self, name: &Name) -> Vec<Name> {
+        if self.by_name.len() > COMPARED_MAX {
+            return Vec::new();
+        }
         let limit = (name.as_str().len() / 3).clamp(1, 3);
         let mut near: Vec<_> = self
             .by_name
@@ -200,6 +203,9 @@ impl Names {
         near.into_iter().take(3).map(|(_, name)| name).collect()
     }
 }
+
+/// In larger name spaces nothing is suggested: comparing would take longer than looking.
+const COMPARED_MAX: usize = 4096;
 
 /// How many letters must change, at most `limit`; case does not count. Long names are not compared.
 pub(crate) fn distance(a: &str, b: &str, limit: usize) -> Option<usize> {

@@ -32,7 +32,8 @@ pub(super) const TABLE: &[Spec] = &[
         ],
         outputs: &[OutputSpec::of(SUMMED)],
         does: Does::Stateful(|_| Box::<Accumulate>::default()),
-        behaviour: "Running sum: <2> plus every <1> times the scale <4>, of the kind of <2>, the stored sum kept \
+        behaviour: "Running sum: <2> plus every <1> times the scale <4>, of the kind of <2> (without it, \
+                    of <1>, integers becoming real with the first real), the stored sum kept \
                     between the lower limit <6> and the upper limit <5>. A vector is limited component by component. \
                     Sent on when it has changed by at least <3> since it was last sent. Sending <2> starts anew \
                     from there without sending. Matrices are multiplied, new times old; scale and limits do not \
@@ -93,7 +94,10 @@ impl Function for Accumulate {
         };
         let result = match &mut running {
             Running::Product(product) => multiply(product, inputs, outputs),
-            Running::Sum { kind, sum, sent } => add(*kind, sum, sent, inputs, outputs),
+            Running::Sum { kind, sum, sent } => {
+                *kind = promoted(*kind, inputs);
+                add(*kind, sum, sent, inputs, outputs)
+            }
         };
         self.running = Some(running);
         result
@@ -128,6 +132,16 @@ fn start(inputs: &Inputs<'_>) -> Result<Running, Fault> {
         }
     };
     Ok(Running::Product(product))
+}
+
+/// A sum of integers that nothing made integral by <2> becomes real with the first real that enters it.
+fn promoted(kind: Kind, inputs: &Inputs<'_>) -> Kind {
+    let real = inputs.get(1).kind() == Kind::Real || (inputs.is_set(4) && inputs.get(4).kind() == Kind::Real);
+    if kind == Kind::Integer && real && inputs.find(2).is_none() {
+        Kind::Real
+    } else {
+        kind
+    }
 }
 
 fn multiply(product: &mut Value, inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {

@@ -317,7 +317,7 @@ impl Machine {
     }
 
     fn note(&mut self, name: &Name, what: &str, cause: Cause) {
-        self.network.reports.note(name, what, cause);
+        self.network.reports.note(name, || what.to_owned(), cause);
     }
 
     /// The value a variable or constant holds at its first input.

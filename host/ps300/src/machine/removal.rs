@@ -33,7 +33,7 @@ impl Machine {
             }
             self.names.clear(entry);
         }
-        if !nodes.is_empty() {
+        if nodes.len() > 1 {
             self.drop_labels(&nodes);
         }
         self.network.remove(&instances, &nodes);

@@ -209,20 +209,17 @@ impl Instance {
         self.output(number).and_then(|port| port.last.as_ref())
     }
 
-    pub(crate) fn input_views(&self) -> Vec<InputView<'_>> {
-        let view = |port: &'_ InputPort| InputView {
-            kinds: port.kinds,
-            constant: port.constant,
-            waiting: port.waiting(),
-            front: None,
-        };
-        self.inputs
-            .iter()
-            .map(|port| InputView {
+    pub(crate) fn input_views<'a>(&'a self) -> Vec<InputView<'a>> {
+        let view = |port: &'a InputPort| {
+            let InputPort { kinds, constant, .. } = *port;
+            InputView {
+                kinds,
+                constant,
+                waiting: port.waiting(),
                 front: port.front(),
-                ..view(port)
-            })
-            .collect()
+            }
+        };
+        self.inputs.iter().map(view).collect()
     }
 
     /// Drops connections; true keeps one.

@@ -15,10 +15,13 @@ pub struct InputPort {
     pub(crate) constant: bool,
     /// Whether `constant` is what the function's table row says.
     pub(super) as_built: bool,
-    preset: Preset,
-    queue: VecDeque<Value>,
-    held: Option<Value>,
+    /// Whether the constant held was sent rather than preset.
     set: bool,
+    preset: Preset,
+    /// The constant, or the oldest message. Kept apart from the others because there are hardly ever
+    /// others, and a message is as large as a matrix.
+    front: Option<Value>,
+    behind: VecDeque<Value>,
 }
 
 impl InputPort {
@@ -27,20 +30,16 @@ impl InputPort {
             kinds: spec.kinds,
             constant: spec.constant,
             as_built: true,
-            preset: spec.preset,
-            queue: VecDeque::new(),
-            held: if spec.constant { spec.preset.value() } else { None },
             set: false,
+            preset: spec.preset,
+            front: if spec.constant { spec.preset.value() } else { None },
+            behind: VecDeque::new(),
         }
     }
 
     /// What the next firing would see here.
     pub(crate) fn front(&self) -> Option<&Value> {
-        if self.constant {
-            self.held.as_ref()
-        } else {
-            self.queue.front()
-        }
+        self.front.as_ref()
     }
 
     /// Whether somebody sent the constant that is held.
@@ -50,41 +49,49 @@ impl InputPort {
 
     /// Whether this input lets a firing happen.
     pub(super) fn satisfied(&self) -> bool {
-        if self.constant {
-            self.held.is_some() || matches!(self.preset, Preset::Rule(_))
-        } else {
-            !self.queue.is_empty()
-        }
+        self.front.is_some() || (self.constant && matches!(self.preset, Preset::Rule(_)))
     }
 
     /// Replaces the constant.
-    pub(super) fn hold(&mut self, value: Value) {
-        self.held = Some(value);
+    pub(super) fn hold(&mut self, value: &Value) {
+        copy(value, &mut self.front);
         self.set = true;
     }
 
-    pub(super) fn push(&mut self, value: Value) {
-        self.queue.push_back(value);
+    pub(super) fn push(&mut self, value: &Value) {
+        if self.front.is_none() {
+            copy(value, &mut self.front);
+        } else {
+            self.behind.push_back(value.clone());
+        }
     }
 
+    /// Takes the oldest message of an active input; false if there was none.
     pub(super) fn pop(&mut self) -> bool {
-        self.queue.pop_front().is_some()
+        let taken = self.front.is_some();
+        if self.behind.is_empty() {
+            self.front = None;
+        } else {
+            self.front = self.behind.pop_front();
+        }
+        taken
     }
 
+    /// How many messages wait; a constant does not wait.
     pub(super) fn waiting(&self) -> usize {
-        self.queue.len()
+        if self.constant {
+            0
+        } else {
+            usize::from(self.front.is_some()) + self.behind.len()
+        }
     }
 
     pub(super) fn queued(&self) -> impl Iterator<Item = &Value> {
-        self.queue.iter()
+        self.front.iter().filter(|_| !self.constant).chain(&self.behind)
     }
 
     pub(super) fn held_if_set(&self) -> Option<&Value> {
-        if self.constant && self.set {
-            self.held.as_ref()
-        } else {
-            None
-        }
+        self.front.as_ref().filter(|_| self.constant && self.set)
     }
 
     /// SETUP CNESS. An input made constant keeps its newest message; one made active starts empty.
@@ -93,19 +100,30 @@ impl InputPort {
         if constant == self.constant {
             return 0;
         }
+        let gone = self.waiting();
+        let newest = self.behind.pop_back().or(self.front.take());
         self.constant = constant;
         self.as_built = !self.as_built;
-        let gone = self.queue.len();
-        self.held = None;
-        self.set = false;
-        if constant {
-            match self.queue.pop_back() {
-                Some(newest) => self.hold(newest),
-                None => self.held = self.preset.value(),
-            }
-        }
-        self.queue.clear();
+        self.set = constant && newest.is_some();
+        self.front = if constant {
+            newest.or(self.preset.value())
+        } else {
+            None
+        };
+        self.behind.clear();
         gone
+    }
+}
+
+/// Clones into a place. The small kinds are named so that they are not moved as if they were matrices.
+#[inline]
+pub(super) fn copy(value: &Value, into: &mut Option<Value>) {
+    match value {
+        Value::Real(x) => *into = Some(Value::Real(*x)),
+        Value::Integer(n) => *into = Some(Value::Integer(*n)),
+        Value::Boolean(b) => *into = Some(Value::Boolean(*b)),
+        Value::Vector3(v) => *into = Some(Value::Vector3(*v)),
+        large => *into = Some(large.clone()),
     }
 }
 

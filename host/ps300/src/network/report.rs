@@ -57,6 +57,8 @@ pub enum Cause {
         /// The other end.
         to: String,
     },
+    /// A watched message was not recorded, since nobody took those before.
+    Unwatched,
     /// Too many different things went wrong to list; `count` says how many more.
     Unlisted,
 }
@@ -94,6 +96,9 @@ impl fmt::Display for Report {
             }
             Cause::Unknown { name } => write!(f, "there is no {name:?}")?,
             Cause::AlreadyConnected { to } => write!(f, "already connected to {to}; nothing changed")?,
+            Cause::Unwatched => {
+                f.write_str("too many watched messages were not taken; the newest was not recorded")?;
+            }
             Cause::Unlisted => {}
         }
         if self.count > 1 {
@@ -114,23 +119,20 @@ pub(crate) struct Reports {
 }
 
 impl Reports {
-    pub(crate) fn note(&mut self, name: &Name, what: impl fmt::Display, cause: Cause) {
-        self.note_times(name, what, cause, 1);
-    }
-
-    fn note_times(&mut self, name: &Name, what: impl fmt::Display, cause: Cause, count: u32) {
+    /// `what` is asked only when the report is new.
+    pub(crate) fn note(&mut self, name: &Name, what: impl FnOnce() -> String, cause: Cause) {
         let same = |report: &&mut Report| report.cause == cause && report.name == *name;
         if let Some(report) = self.listed.iter_mut().rev().find(same) {
-            report.count = report.count.saturating_add(count);
+            report.count = report.count.saturating_add(1);
         } else if self.listed.len() < DIFFERENT_MAX {
             self.listed.push(Report {
                 name: name.clone(),
-                what: what.to_string(),
+                what: what(),
                 cause,
-                count,
+                count: 1,
             });
         } else {
-            self.unlisted = self.unlisted.saturating_add(count);
+            self.unlisted = self.unlisted.saturating_add(1);
         }
     }
 

@@ -10,6 +10,7 @@
 //!    inputs messages were waiting for it.
 
 use super::connection::{Inlet, InstanceId, Outlet, SinkId};
+use super::port::copy;
 use super::{Cause, Network, Watched};
 use crate::intrinsic::{Errand, Fault, Now, Outputs};
 use crate::language::Input;
@@ -111,9 +112,17 @@ impl Network {
             let result = act(instance, &mut Outputs::new(&mut sent, &mut errands));
             settle(self, id, &result);
         }
-        for (output, value) in sent.drain(..) {
-            self.send_out(Outlet { from: id, output }, &value, outside);
+        for (output, value) in &sent {
+            self.send_out(
+                Outlet {
+                    from: id,
+                    output: *output,
+                },
+                value,
+                outside,
+            );
         }
+        sent.clear();
         for errand in errands.drain(..) {
             self.run_errand(id, errand, outside);
         }
@@ -176,26 +185,18 @@ impl Network {
             return;
         }
         let port = usize::from(from.output).wrapping_sub(1);
-        let secs = self.now.secs;
-        let Some(instance) = self.slots.get_mut(from.from.0 as usize).and_then(Option::as_mut) else {
+        let Some(output) = self
+            .instance_mut(from.from)
+            .and_then(|it| it.outputs.get_mut(port))
+        else {
             return;
         };
-        let Some(output) = instance.outputs.get_mut(port) else {
-            return;
-        };
-        output.last = Some(value.clone());
-        if output.watched {
-            let watched = Watched {
-                secs,
-                name: instance.name.clone(),
-                output: from.output,
-                value: value.clone(),
-            };
-            if self.watched.len() < self.limits.undrained_max {
-                self.watched.push_back(watched);
-            }
-        }
+        copy(value, &mut output.last);
+        let watched = output.watched;
         let to = std::mem::take(&mut output.to);
+        if watched {
+            self.record(from, value);
+        }
         for &inlet in &to {
             self.deliver(inlet, value, outside);
         }
@@ -206,6 +207,22 @@ impl Network {
         {
             output.to = to;
         }
+    }
+
+    fn record(&mut self, from: Outlet, value: &Value) {
+        let Some(instance) = self.instance(from.from) else {
+            return;
+        };
+        if self.watched.len() >= self.limits.undrained_max {
+            return self.report(from.from, Cause::Unwatched);
+        }
+        let (secs, name) = (self.now.secs, instance.name.clone());
+        self.watched.push_back(Watched {
+            secs,
+            name,
+            output: from.output,
+            value: value.clone(),
+        });
     }
 
     /// Hands one message to one input; what does not fit is dropped and reported.
@@ -225,7 +242,7 @@ impl Network {
                         },
                         Refusal::Domain(why) => Cause::Domain { why },
                     };
-                    self.reports.note(&name, format_args!("{what} node"), cause);
+                    self.reports.note(&name, || format!("{what} node"), cause);
                 }
             }
         }
@@ -251,14 +268,14 @@ impl Network {
         }
         let satisfied = port.satisfied();
         if port.constant {
-            port.hold(value.clone());
+            port.hold(value);
             instance.constant_set(input);
         } else if full {
             return self.report(to, Cause::NetworkFull);
         } else if port.waiting() >= queue_max {
             return self.report(to, Cause::QueueFull { input: at });
         } else {
-            port.push(value.clone());
+            port.push(value);
             self.waiting += 1;
         }
         if !satisfied {
@@ -292,7 +309,7 @@ impl Network {
             return self.arrived.push_back((to, input, value.clone()));
         };
         if let Some(sink) = self.sinks.get(to.0 as usize) {
-            self.reports.note(&sink.name, "host input", cause);
+            self.reports.note(&sink.name, || "host input".to_owned(), cause);
         }
     }
 
@@ -323,7 +340,7 @@ impl Network {
 
     pub(crate) fn report(&mut self, id: InstanceId, cause: Cause) {
         if let Some(instance) = self.slots.get(id.0 as usize).and_then(Option::as_ref) {
-            self.reports.note(&instance.name, instance.what(), cause);
+            self.reports.note(&instance.name, || instance.what(), cause);
         }
     }
 }
