@@ -102,6 +102,23 @@ pub enum Unit {
     Bits,
 }
 
+impl std::fmt::Display for Unit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Radian => "rad",
+            Self::RadianPerSecond => "rad/s",
+            Self::RadianPerSecondSquared => "rad/s2",
+            Self::Second => "s",
+            Self::Volt => "V",
+            Self::VoltPerSecond => "V/s",
+            Self::Ampere => "A",
+            Self::Celsius => "C",
+            Self::Ratio => "ratio",
+            Self::Bits => "bits",
+        })
+    }
+}
+
 /// One row of a control table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

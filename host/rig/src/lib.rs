@@ -12,7 +12,9 @@ pub mod document;
 pub mod history;
 mod inputs;
 pub mod journal;
+pub mod listen;
 pub mod live;
+pub mod maintenance;
 mod notes;
 pub mod parameters;
 mod ports;
@@ -20,6 +22,7 @@ pub mod puppet;
 mod rig;
 pub mod snapshot;
 mod stage;
+mod system;
 mod timeline;
 mod view;
 mod wiring;
@@ -37,3 +40,4 @@ pub use snapshot::{
     DeskKeyView, DeskView, DeviceHealth, DeviceView, DialView, FigureView, JointView, KeyView, KineticsView,
     Note, NoteLevel, PuppetState, PuppetView, Snapshot, TransportView, ViewState,
 };
+pub use system::{SystemPorts, WithBench};
