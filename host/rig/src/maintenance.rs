@@ -106,7 +106,7 @@ impl ServoLine {
         let profiles = Arc::clone(&self.profiles);
         let mut all = Vec::new();
         self.line.scan(bauds, &*self.clock, &mut |here| {
-            let found: Vec<_> = here.found.iter().map(|found| named(&profiles, found)).collect();
+            let found: Vec<_> = here.found.iter().map(|found| named(&profiles, *found)).collect();
             all.extend(found.iter().cloned());
             heard(&HeardServos {
                 baud: here.baud,
@@ -120,7 +120,7 @@ impl ServoLine {
     /// Asks one servo who it is.
     pub fn ping(&mut self, id: u8) -> Result<FoundServo, ServoLineError> {
         let found = self.line.ping(id, &*self.clock)?;
-        Ok(named(&self.profiles, &found))
+        Ok(named(&self.profiles, found))
     }
 
     /// Reads one register by its name, or all of them.
@@ -197,7 +197,7 @@ impl ServoLine {
     }
 }
 
-fn named(profiles: &Profiles, found: &device::servo::maintenance::Found) -> FoundServo {
+fn named(profiles: &Profiles, found: device::servo::maintenance::Found) -> FoundServo {
     FoundServo {
         baud: found.baud,
         id: found.id,
