@@ -31,5 +31,5 @@ pub use fault::{FileError, FileErrors, Findings};
 pub use figure::{FigureDoc, FigureTexts};
 pub use folder::{Loaded, load};
 pub use frames::ExportError;
-pub use save::{autosave, save};
+pub use save::{autosave, from_texts, save, texts};
 pub use show::{NetworkFile, Show};

@@ -2,8 +2,9 @@
 //!
 //! What is saved stands on its own: networks that were shared by reference are written into the show.
 
+use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use super::bvh;
 use super::clip_file;
@@ -20,6 +21,36 @@ pub(super) const AUTOSAVE: &str = ".autosave";
 /// as it was.
 pub fn save(show: &Show, folder: &Path) -> Result<(), FileErrors> {
     save_through(&mut RealDisk, show, folder)
+}
+
+/// The files a show is saved as: path inside the show folder, with forward slashes, to text.
+pub fn texts(show: &Show) -> Result<BTreeMap<String, String>, FileErrors> {
+    let file = |file: NewFile| (file.path.to_string_lossy().replace('\\', "/"), file.text);
+    Ok(files(show, Path::new(""))?.into_iter().map(file).collect())
+}
+
+/// The show that such files make; they are put into a folder of their own for the reading.
+pub fn from_texts(texts: &BTreeMap<String, String>) -> Result<Show, FileErrors> {
+    let nowhere = Path::new("the files of a show");
+    let folder = tempfile::tempdir().map_err(|error| cannot(nowhere, "unpack", &error))?;
+    let unpack = |(path, text): (&String, &String)| {
+        let inside = Path::new(path)
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)));
+        if !inside {
+            return Err(FileError::whole(
+                Path::new(path),
+                "a file of a show must lie inside its folder",
+            ));
+        }
+        let path = folder.path().join(path);
+        let parent = path.parent().unwrap_or(folder.path());
+        fs::create_dir_all(parent)
+            .and_then(|()| fs::write(&path, text))
+            .map_err(|error| cannot(&path, "write", &error))
+    };
+    texts.iter().try_for_each(unpack)?;
+    super::load(folder.path()).map(|loaded| loaded.show)
 }
 
 /// The same through a given [`Disk`].
