@@ -298,3 +298,7 @@ impl Bus {
             .map_err(|source| BusError::transport(&self.settings.name, source))
     }
 }
+
+#[cfg(test)]
+#[path = "bus_tests.rs"]
+mod tests;
