@@ -24,8 +24,8 @@ CONNECT gain<1>:<1>VIEW;
 ```
 
 What arrives is done once a step of the rig, in the order of arrival, after the network has run. What is done can be
-undone where it changes the show. A value that makes no sense (an infinite number, a step that rounds to 0) asks for
-nothing; one of a kind the inlet does not take is dropped and reported.
+undone where it changes the show. A value that makes no sense (an infinite number, a step that rounds to 0, a vector
+of two where three are meant) asks for nothing; one of a kind the inlet does not take is dropped and reported.
 
 Angles are in degrees here, as everywhere in networks; lengths in metres, times in seconds. *Added* means that each
 message is a movement: connect dials directly, without an accumulator between.
