@@ -1,0 +1,146 @@
+//! Putting devices on the bench.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
+
+use device::clock::Clock;
+use device_profiles::{KnobsProfile, ProfileError, Profiles, PuppetProfile, TabletProfile};
+use firmware_sim::dial_box::Options;
+use firmware_sim::dynamixel::{AddError, BusOptions, Sag, Unit};
+use firmware_sim::wacom_iv::Model;
+use firmware_sim::{ServoBus, SgiDialBox, WacomIv};
+
+use super::seat::{Seat, Simulated};
+use super::truth::Mount;
+use super::{Stand, Surface};
+
+/// Why a bench cannot be set up.
+#[derive(Debug, thiserror::Error)]
+pub enum StandError {
+    /// A profile is missing; the message lists what there is.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// A servo does not fit its bus.
+    #[error("bus \"{bus}\": {source}")]
+    Servo {
+        /// The bus.
+        bus: String,
+        /// Why not.
+        source: AddError,
+    },
+    /// Two devices of one name.
+    #[error("two simulated devices are called \"{name}\"; names must differ")]
+    Twice {
+        /// The name.
+        name: String,
+    },
+    /// A pose names a joint that is not there.
+    #[error("the start pose names joint \"{joint}\", which {puppet} does not have; it has: {known}")]
+    NoSuchJoint {
+        /// The joint named.
+        joint: String,
+        /// The puppet.
+        puppet: String,
+        /// Its joints.
+        known: String,
+    },
+}
+
+/// How a simulated puppet begins.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PuppetPlan {
+    /// Where joints are at first, radians; those not named are at 0.
+    pub start_rad: BTreeMap<String, f64>,
+    /// How fast joints without torque sink back to where they began; none: they stay where they are let go.
+    pub sag_rad_per_s: Option<f64>,
+    /// Decides what random faults hit.
+    pub seed: u64,
+}
+
+/// A bench being set up.
+pub struct StandBuilder {
+    clock: Arc<dyn Clock>,
+    seats: BTreeMap<String, Arc<Mutex<Seat>>>,
+    mounts: Vec<Mount>,
+}
+
+impl StandBuilder {
+    pub(super) fn new(clock: Arc<dyn Clock>) -> Self {
+        Self { clock, seats: BTreeMap::new(), mounts: Vec::new() }
+    }
+
+    /// Adds a dial box as `sim:NAME`.
+    pub fn dial_box(self, name: &str, profile: &KnobsProfile) -> Result<Self, StandError> {
+        let dial_box = SgiDialBox::new(Options::from(profile));
+        let device = Simulated::DialBox(Box::new(dial_box), profile.counts_per_turn);
+        self.seat(name, &profile.name, vec![profile.key.clone()], device)
+    }
+
+    /// Adds a tablet as `sim:NAME`.
+    pub fn tablet(self, name: &str, profile: &TabletProfile) -> Result<Self, StandError> {
+        let tablet = WacomIv::new(Model::from(profile), 0);
+        let device = Simulated::Tablet(Box::new(tablet), Surface::from(profile));
+        self.seat(name, &profile.name, vec![profile.key.clone()], device)
+    }
+
+    /// Adds one bus of servos for each bus of the puppet, as `sim:BUS`.
+    pub fn puppet(
+        mut self,
+        puppet: &PuppetProfile,
+        profiles: &Profiles,
+        plan: &PuppetPlan,
+    ) -> Result<Self, StandError> {
+        if let Some(joint) = plan.start_rad.keys().find(|joint| puppet.joint(joint).is_none()) {
+            return Err(StandError::NoSuchJoint {
+                joint: joint.clone(),
+                puppet: puppet.name.clone(),
+                known: puppet.joints().map(|j| j.name.as_str()).collect::<Vec<_>>().join(", "),
+            });
+        }
+        for line in &puppet.buses {
+            let options = BusOptions { baud: line.baud, seed: plan.seed, ..BusOptions::default() };
+            let mut bus = ServoBus::new(options);
+            for joint in puppet.joints_on(&line.name) {
+                let servo = profiles.servo(&joint.model)?;
+                let mount = Mount::new(joint, servo);
+                let start_rad = mount.shaft_rad(plan.start_rad.get(&joint.name).copied().unwrap_or(0.0));
+                let unit = Unit { start_rad, ..Unit::new(joint.id) };
+                let added = bus.add(servo, unit);
+                added.map_err(|source| StandError::Servo { bus: line.name.clone(), source })?;
+                let sag = plan.sag_rad_per_s.map(|rad_per_s| Sag { to_rad: start_rad, rad_per_s });
+                bus.set_sag(0, joint.id, sag);
+            }
+            let words = format!("{}, bus {}", puppet.name, line.name);
+            self = self.seat(&line.name, &words, vec![puppet.key.clone()], Simulated::Bus(Box::new(bus)))?;
+        }
+        for joint in puppet.joints() {
+            self.mounts.push(Mount::new(joint, profiles.servo(&joint.model)?));
+        }
+        Ok(self)
+    }
+
+    /// Adds a bus of servos that belong to no puppet, as `sim:NAME`.
+    pub fn servo_bus(self, name: &str, bus: ServoBus) -> Result<Self, StandError> {
+        let models = format!("{} servos", bus.servos().len());
+        self.seat(name, &models, Vec::new(), Simulated::Bus(Box::new(bus)))
+    }
+
+    fn seat(
+        mut self,
+        name: &str,
+        what: &str,
+        matches: Vec<String>,
+        device: Simulated,
+    ) -> Result<Self, StandError> {
+        let seat = Seat::new(name, format!("simulated: {what}"), matches, device);
+        match self.seats.insert(name.to_owned(), Arc::new(Mutex::new(seat))) {
+            None => Ok(self),
+            Some(_) => Err(StandError::Twice { name: name.to_owned() }),
+        }
+    }
+
+    /// The bench, ready.
+    pub fn build(self) -> Stand {
+        Stand { clock: self.clock, seats: Arc::new(self.seats), mounts: Arc::new(self.mounts) }
+    }
+}

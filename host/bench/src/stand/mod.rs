@@ -1,0 +1,267 @@
+//! The stand: simulated devices under names, on one clock, each behind its own cable.
+//!
+//! Whoever opens `sim:NAME` gets a transport like any other and cannot tell that the far end is a program.
+//! Whoever holds the [`Stand`] can do what only somebody beside the bench can: turn, press, pull cables out,
+//! bring in faults, and see where the shafts really are.
+
+mod build;
+mod ports;
+mod seat;
+mod surface;
+mod transport;
+mod truth;
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use device::clock::Clock;
+use firmware_sim::Fault;
+use firmware_sim::dynamixel::FaultError;
+use firmware_sim::hands::Touch;
+
+pub use build::{PuppetPlan, StandBuilder, StandError};
+pub use ports::SimPorts;
+use seat::{Seat, Simulated};
+pub use seat::{Shown, Traffic};
+pub use surface::Surface;
+pub use transport::SimTransport;
+pub use truth::JointTruth;
+use truth::Mount;
+
+/// What every simulated device's address begins with.
+pub const SCHEME: &str = "sim:";
+
+/// A hand cannot do this.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum HandError {
+    /// There is no such device.
+    #[error("there is no simulated device \"{name}\"; there are: {known}")]
+    NoSuchDevice {
+        /// The name asked for.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// The device has no such control.
+    #[error("{name} has no {control}")]
+    NoSuchControl {
+        /// The device.
+        name: String,
+        /// The control, in words.
+        control: String,
+    },
+    /// It is not a bus.
+    #[error("{name} is not a servo bus; the buses are: {buses}")]
+    NotABus {
+        /// The device.
+        name: String,
+        /// All buses.
+        buses: String,
+    },
+    /// There is no such joint.
+    #[error("there is no joint \"{joint}\"; there are: {known}")]
+    NoSuchJoint {
+        /// The name asked for.
+        joint: String,
+        /// All joints.
+        known: String,
+    },
+    /// The text names no fault.
+    #[error("fault \"{text}\": {source}")]
+    Fault {
+        /// As given.
+        text: String,
+        /// What is wrong with it.
+        source: FaultError,
+    },
+}
+
+/// The simulated bench. Clones are the same bench.
+#[derive(Clone)]
+pub struct Stand {
+    clock: Arc<dyn Clock>,
+    seats: Arc<BTreeMap<String, Arc<Mutex<Seat>>>>,
+    mounts: Arc<Vec<Mount>>,
+}
+
+pub(crate) fn lock(seat: &Mutex<Seat>) -> MutexGuard<'_, Seat> {
+    // A panic elsewhere leaves a device in some state of its own, which is what devices are in anyway.
+    seat.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Stand {
+    /// An empty bench to put devices on.
+    pub fn builder(clock: Arc<dyn Clock>) -> StandBuilder {
+        StandBuilder::new(clock)
+    }
+
+    /// Names of all devices, in alphabetical order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.seats.keys().map(String::as_str)
+    }
+
+    /// The clock that all devices live on.
+    pub fn clock(&self) -> &Arc<dyn Clock> {
+        &self.clock
+    }
+
+    fn now_us(&self) -> u64 {
+        self.clock.now().as_micros()
+    }
+
+    /// The device of that name, with or without `sim:`, brought up to now.
+    fn seat(&self, name: &str) -> Result<MutexGuard<'_, Seat>, HandError> {
+        let bare = name.strip_prefix(SCHEME).unwrap_or(name);
+        let seat = self.seats.get(bare).ok_or_else(|| HandError::NoSuchDevice {
+            name: bare.to_owned(),
+            known: self.names().collect::<Vec<_>>().join(", "),
+        })?;
+        let mut seat = lock(seat);
+        seat.advance(self.now_us());
+        Ok(seat)
+    }
+
+    /// Lays a hand on a dial box or tablet, now.
+    pub fn touch(&self, name: &str, touch: &Touch) -> Result<(), HandError> {
+        if self.seat(name)?.touch(self.now_us(), touch) {
+            return Ok(());
+        }
+        let control = match touch {
+            Touch::Dial { control, .. } => format!("dial {control}"),
+            Touch::Button { control, .. } => format!("button {control}"),
+            Touch::PowerCycle => "switch".to_owned(),
+            Touch::Pen(_) | Touch::Puck(_) | Touch::Away => "surface".to_owned(),
+        };
+        Err(HandError::NoSuchControl { name: name.to_owned(), control })
+    }
+
+    /// Takes a device's cable out of the host (`false`) or puts it back. The device keeps its power.
+    pub fn plug(&self, name: &str, connected: bool) -> Result<(), HandError> {
+        self.seat(name)?.plug(self.now_us(), connected);
+        Ok(())
+    }
+
+    /// Whether the device's cable is in.
+    pub fn is_plugged(&self, name: &str) -> Result<bool, HandError> {
+        Ok(self.seat(name)?.is_connected())
+    }
+
+    /// Takes the cable out when the port has been read or written `calls` more times: a way to fail at every
+    /// step of a session in turn.
+    pub fn unplug_after_calls(&self, name: &str, calls: u64) -> Result<(), HandError> {
+        self.seat(name)?.fail_after(calls);
+        Ok(())
+    }
+
+    /// What a dial box shows; nothing for other devices.
+    pub fn shown(&self, name: &str) -> Result<Shown, HandError> {
+        Ok(self.seat(name)?.shown.clone())
+    }
+
+    /// Counts in a turn of a dial box's dials; none for other devices.
+    pub fn counts_per_turn(&self, name: &str) -> Result<Option<u32>, HandError> {
+        Ok(match &self.seat(name)?.device {
+            Simulated::DialBox(_, counts) => Some(*counts),
+            _ => None,
+        })
+    }
+
+    /// A tablet's active area; none for other devices.
+    pub fn surface(&self, name: &str) -> Result<Option<Surface>, HandError> {
+        Ok(match &self.seat(name)?.device {
+            Simulated::Tablet(_, surface) => Some(*surface),
+            _ => None,
+        })
+    }
+
+    fn with_bus<T>(
+        &self,
+        name: &str,
+        act: impl FnOnce(&mut firmware_sim::ServoBus, u64) -> T,
+    ) -> Result<T, HandError> {
+        let now_us = self.now_us();
+        match &mut self.seat(name)?.device {
+            Simulated::Bus(bus) => Ok(act(bus, now_us)),
+            _ => Err(HandError::NotABus {
+                name: name.to_owned(),
+                buses: self.buses().collect::<Vec<_>>().join(", "),
+            }),
+        }
+    }
+
+    /// Names of the buses that have joints of the puppet, in alphabetical order.
+    pub fn buses(&self) -> impl Iterator<Item = &str> {
+        self.names().filter(|name| self.mounts.iter().any(|mount| mount.bus == **name))
+    }
+
+    /// Brings a fault onto a bus, named as in `docs/cli.md`; its times count from now.
+    pub fn fault(&self, bus: &str, text: &str) -> Result<(), HandError> {
+        let fault =
+            Fault::parse(text).map_err(|source| HandError::Fault { text: text.to_owned(), source })?;
+        self.with_bus(bus, |bus, now_us| bus.inject(now_us, &fault))
+    }
+
+    /// Ends every fault of a bus.
+    pub fn mend(&self, bus: &str) -> Result<(), HandError> {
+        self.with_bus(bus, |bus, now_us| bus.mend(now_us))
+    }
+
+    fn mount(&self, joint: &str) -> Result<&Mount, HandError> {
+        self.mounts.iter().find(|mount| mount.joint == joint).ok_or_else(|| HandError::NoSuchJoint {
+            joint: joint.to_owned(),
+            known: self.mounts.iter().map(|m| m.joint.as_str()).collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// A hand turns a joint's horn by `rad`.
+    pub fn push(&self, joint: &str, rad: f64) -> Result<(), HandError> {
+        let mount = self.mount(joint)?;
+        let by_rad = mount.shaft_rad(rad) - mount.shaft_rad(0.0);
+        self.with_bus(&mount.bus, |bus, now_us| bus.push(now_us, mount.id, by_rad))?;
+        Ok(())
+    }
+
+    /// Where every joint of the puppet really is, in the puppet's order.
+    pub fn joints(&self) -> Vec<JointTruth> {
+        let mut seen = Vec::with_capacity(self.mounts.len());
+        let mut bus_name = "";
+        let mut seat: Option<MutexGuard<'_, Seat>> = None;
+        for mount in self.mounts.iter() {
+            if mount.bus != bus_name || seat.is_none() {
+                // One lock at a time: the old one goes before the new one is taken.
+                drop(seat.take());
+                seat = self.seat(&mount.bus).ok();
+                bus_name = &mount.bus;
+            }
+            if let Some(Seat { device: Simulated::Bus(bus), .. }) = seat.as_deref()
+                && let Some(servo) = bus.servo(mount.id)
+            {
+                seen.push(mount.truth(servo));
+            }
+        }
+        seen
+    }
+
+    /// Where one joint really is.
+    pub fn joint(&self, joint: &str) -> Result<JointTruth, HandError> {
+        let mount = self.mount(joint)?;
+        let truth = self.with_bus(&mount.bus, |bus, _| bus.servo(mount.id).map(|servo| mount.truth(servo)))?;
+        truth.ok_or_else(|| HandError::NoSuchJoint { joint: joint.to_owned(), known: String::new() })
+    }
+
+    /// Begins to note when the host writes to each bus.
+    pub fn keep_traffic(&self) {
+        for seat in self.seats.values() {
+            lock(seat).keep_traffic();
+        }
+    }
+
+    /// What went over a bus since the last call, up to now.
+    pub fn take_traffic(&self, bus: &str) -> Result<Traffic, HandError> {
+        let now_us = self.now_us();
+        Ok(self.seat(bus)?.take_traffic(now_us))
+    }
+}
+
+#[cfg(test)]
+mod tests;

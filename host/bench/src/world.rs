@@ -1,0 +1,260 @@
+//! A whole rig with its bench in virtual time: devices, hands and rig on one clock that moves only when stepped.
+//!
+//! Nothing here reads the time of day or runs beside anything else, so the same options and the same doings
+//! give the same snapshots, bytes and journal, every time.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::sync::Arc;
+use std::time::Duration;
+
+use device::clock::{Clock, VirtualClock};
+use device_profiles::Profiles;
+use rig::document::Show;
+use rig::journal::{Recorder, RecordingPorts};
+use rig::{Command, InputSpec, Pace, Ports, PuppetSpec, Rig, RigError, RigOptions, Snapshot};
+
+use crate::hands::Hands;
+use crate::stand::{HandError, PuppetPlan, SCHEME, SimPorts, Stand, StandError};
+
+/// Time between steps of the rig, and with it of the servo cycle: a hundred a second.
+pub const PERIOD: Duration = Duration::from_millis(10);
+/// Name of the dial box on the bench.
+pub const DIAL_BOX: &str = "dial-box";
+/// Name of the tablet on the bench.
+pub const TABLET: &str = "tablet";
+/// Profile of the dial box, if nobody asks for another: the one with displays, so that labels can be seen.
+pub const DIAL_BOX_PROFILE: &str = "sgi-dialbox-display";
+/// Profile of the tablet, if nobody asks for another: its puck has buttons and a wheel.
+pub const TABLET_PROFILE: &str = "graphire-serial";
+
+/// What stands on the bench.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equipment {
+    /// Key of the dial box's profile; none: no dial box.
+    pub knobs: Option<String>,
+    /// Key of the tablet's profile; none: no tablet.
+    pub tablet: Option<String>,
+    /// Key of the puppet's profile; none: no puppet.
+    pub puppet: Option<String>,
+    /// How the puppet begins.
+    pub plan: PuppetPlan,
+}
+
+impl Default for Equipment {
+    /// A dial box with displays and a tablet with a puck.
+    fn default() -> Self {
+        Self {
+            knobs: Some(DIAL_BOX_PROFILE.to_owned()),
+            tablet: Some(TABLET_PROFILE.to_owned()),
+            puppet: None,
+            plan: PuppetPlan::default(),
+        }
+    }
+}
+
+impl Equipment {
+    /// Puts it all on a stand, on any clock: `sim:dial-box`, `sim:tablet`, and the puppet's buses by their names.
+    pub fn stand(&self, clock: Arc<dyn Clock>, profiles: &Profiles) -> Result<Stand, StandError> {
+        let mut builder = Stand::builder(clock);
+        if let Some(key) = &self.knobs {
+            builder = builder.dial_box(DIAL_BOX, profiles.knobs(key)?)?;
+        }
+        if let Some(key) = &self.tablet {
+            builder = builder.tablet(TABLET, profiles.tablet(key)?)?;
+        }
+        if let Some(key) = &self.puppet {
+            builder = builder.puppet(profiles.puppet(key)?, profiles, &self.plan)?;
+        }
+        Ok(builder.build())
+    }
+
+    /// The input devices as a rig is told of them.
+    pub fn inputs(&self) -> Vec<InputSpec> {
+        [(DIAL_BOX, &self.knobs), (TABLET, &self.tablet)]
+            .into_iter()
+            .filter_map(|(name, key)| {
+                Some(InputSpec {
+                    name: name.to_owned(),
+                    profile: key.clone()?,
+                    address: format!("{SCHEME}{name}"),
+                })
+            })
+            .collect()
+    }
+
+    /// The puppet as a rig is told of it, ticked every `period`.
+    pub fn puppet(
+        &self,
+        profiles: &Profiles,
+        pace: Pace,
+        period: Duration,
+    ) -> Result<Option<PuppetSpec>, StandError> {
+        let Some(key) = &self.puppet else { return Ok(None) };
+        let buses = &profiles.puppet(key)?.buses;
+        let ports = buses.iter().map(|bus| (bus.name.clone(), format!("{SCHEME}{}", bus.name))).collect();
+        let mut spec = PuppetSpec { profile: key.clone(), ports, config: <_>::default(), pace };
+        spec.config.period = period;
+        Ok(Some(spec))
+    }
+}
+
+/// What a world begins with.
+pub struct WorldOptions {
+    /// The show.
+    pub show: Show,
+    /// Hardware knowledge.
+    pub profiles: Arc<Profiles>,
+    /// What stands on the bench.
+    pub equipment: Equipment,
+    /// Where the journal goes.
+    pub journal: Option<Box<dyn Write + Send>>,
+}
+
+impl WorldOptions {
+    /// A show on the usual bench, with the puppet it names, without a journal.
+    pub fn new(show: Show) -> Self {
+        let equipment = Equipment { puppet: show.puppet.clone(), ..Equipment::default() };
+        Self { show, profiles: Arc::new(Profiles::builtin()), equipment, journal: None }
+    }
+}
+
+/// A world cannot begin.
+#[derive(Debug, thiserror::Error)]
+pub enum WorldError {
+    /// The bench cannot be set up.
+    #[error(transparent)]
+    Stand(#[from] StandError),
+    /// The rig cannot begin.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+}
+
+/// Something did not happen in time.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{what} did not happen within {limit_secs} s (until {at_secs:.2} s of virtual time)")]
+pub struct Late {
+    /// What was waited for.
+    pub what: String,
+    /// How long.
+    pub limit_secs: f64,
+    /// When it was given up.
+    pub at_secs: f64,
+}
+
+/// Devices, hands and a rig on one virtual clock.
+pub struct World {
+    clock: VirtualClock,
+    stand: Stand,
+    hands: Hands,
+    rig: Rig,
+    seen: Arc<Snapshot>,
+    refused: Vec<HandError>,
+}
+
+impl World {
+    /// Sets everything up and takes the first step, at time zero.
+    pub fn new(options: WorldOptions) -> Result<Self, WorldError> {
+        let WorldOptions { show, profiles, equipment, journal } = options;
+        let clock = VirtualClock::new();
+        let stand = equipment.stand(Arc::new(clock.clone()), &profiles)?;
+        let recorder = journal.map(|sink| Recorder::new(sink, BTreeMap::new()));
+        let ports = Box::new(SimPorts::new(stand.clone()));
+        let ports: Box<dyn Ports> = match &recorder {
+            Some(recorder) => Box::new(RecordingPorts::new(ports, recorder.clone())),
+            None => ports,
+        };
+        let mut rig = start_rig(&clock, ports, show, profiles, &equipment, recorder)?;
+        let seen = rig.step(&mut std::iter::empty());
+        let hands = Hands::new(stand.clone());
+        Ok(Self { clock, stand, hands, rig, seen, refused: Vec::new() })
+    }
+
+    /// Moves time on by one period, lets hands do what is due, and steps the rig.
+    pub fn step(&mut self, commands: impl IntoIterator<Item = Command>) -> &Arc<Snapshot> {
+        self.clock.advance(PERIOD);
+        self.refused.extend(self.hands.advance());
+        self.seen = self.rig.step(&mut commands.into_iter());
+        &self.seen
+    }
+
+    /// Lets the host sleep: time goes on for the devices, and nobody asks them anything.
+    pub fn stall(&mut self, secs: f64) {
+        self.clock.advance(Duration::from_secs_f64(secs.max(0.0)));
+    }
+
+    /// Steps until `happened`, at least once. `what` is for the message when it does not.
+    pub fn run_until(
+        &mut self,
+        what: &str,
+        limit_secs: f64,
+        mut happened: impl FnMut(&Snapshot, &Stand) -> bool,
+    ) -> Result<Arc<Snapshot>, Late> {
+        let end_secs = self.secs() + limit_secs;
+        while self.secs() < end_secs {
+            self.step([]);
+            if happened(&self.seen, &self.stand) {
+                return Ok(Arc::clone(&self.seen));
+            }
+        }
+        Err(Late { what: what.to_owned(), limit_secs, at_secs: self.secs() })
+    }
+
+    /// Steps for a while.
+    pub fn run_for(&mut self, secs: f64) -> &Arc<Snapshot> {
+        let end_secs = self.secs() + secs;
+        while self.secs() < end_secs - PERIOD.as_secs_f64() / 2.0 {
+            self.step([]);
+        }
+        &self.seen
+    }
+
+    /// Virtual time, seconds.
+    pub fn secs(&self) -> f64 {
+        self.clock.now().as_secs_f64()
+    }
+
+    /// The rig as it was last seen.
+    pub fn seen(&self) -> &Arc<Snapshot> {
+        &self.seen
+    }
+
+    /// The devices.
+    pub fn stand(&self) -> &Stand {
+        &self.stand
+    }
+
+    /// The hands on them.
+    pub fn hands(&mut self) -> &mut Hands {
+        &mut self.hands
+    }
+
+    /// The rig itself.
+    pub fn rig(&self) -> &Rig {
+        &self.rig
+    }
+
+    /// What hands tried in vain since the last call.
+    pub fn take_refused(&mut self) -> Vec<HandError> {
+        std::mem::take(&mut self.refused)
+    }
+
+    /// Lets go of everything. Gives whether the rig knows torque to be off.
+    pub fn close(self) -> bool {
+        self.rig.close()
+    }
+}
+
+pub(crate) fn start_rig(
+    clock: &VirtualClock,
+    ports: Box<dyn Ports>,
+    show: Show,
+    profiles: Arc<Profiles>,
+    equipment: &Equipment,
+    recorder: Option<Recorder>,
+) -> Result<Rig, WorldError> {
+    let puppet = equipment.puppet(&profiles, Pace::WithTheRig, PERIOD)?;
+    let options =
+        RigOptions { show, folder: None, profiles, inputs: equipment.inputs(), puppet, recorder };
+    Ok(Rig::new(Arc::new(clock.clone()), ports, options)?)
+}
