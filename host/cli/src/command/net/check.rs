@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use rig::document::Findings;
 
-use super::program;
+use super::{diagnostics, program};
 use crate::command::check::report;
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
@@ -29,6 +29,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let mut found = Findings::default();
     program::load(&args.files, console, &mut found);
+    diagnostics::sort(&mut found);
     report(&found, console)?;
     if found.errors.is_empty() {
         console.remark("in order");

@@ -1,8 +1,11 @@
 //! Remarks of the command language as places in files.
 
 use ps300::language::{Diagnostic, Severity};
-use rig::document::Findings;
 use rig::document::source::Source;
+use rig::document::{FileError, FileErrors, Findings};
+
+use crate::console::Console;
+use crate::failure::Failure;
 
 /// Notes remarks about a text that begins at line and column `begins` of the file.
 pub(in crate::command) fn note(
@@ -25,6 +28,24 @@ pub(in crate::command) fn note(
             Severity::Warning => found.warn(error),
         }
     }
+}
+
+/// Shows the warnings; any error ends the command. All in the order of their places.
+pub(super) fn settle(mut found: Findings, console: &Console) -> Result<(), Failure> {
+    sort(&mut found);
+    console.warn(&found.warnings);
+    if found.errors.is_empty() {
+        Ok(())
+    } else {
+        Err(FileErrors(found.errors).into())
+    }
+}
+
+/// Puts remarks in the order of their places, files in the order of their names.
+pub(super) fn sort(found: &mut Findings) {
+    let place = |error: &FileError| (error.file.clone(), error.line, error.column);
+    found.errors.sort_by_key(place);
+    found.warnings.sort_by_key(place);
 }
 
 /// Line and column in the file of a place in a text that begins at `begins`.

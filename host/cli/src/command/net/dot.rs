@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use rig::document::{FileErrors, Findings};
+use rig::document::Findings;
 
-use super::program;
+use super::{diagnostics, program};
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
 
@@ -24,10 +24,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let mut found = Findings::default();
     let machine = program::load(&args.files, console, &mut found);
-    console.warn(&found.warnings);
-    if !found.errors.is_empty() {
-        return Err(FileErrors(found.errors).into());
-    }
+    diagnostics::settle(found, console)?;
     console.line(machine.dot().trim_end())?;
     Ok(Exit::Done)
 }

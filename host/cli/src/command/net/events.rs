@@ -1,6 +1,6 @@
 //! What happens to a network that runs, and when: lines `at SECS COMMAND;` and dials turned.
 
-use ps300::language::{self, Command};
+use ps300::language::{self, Command, Definition, Name};
 use rig::document::source::Source;
 use rig::document::{FileError, Findings};
 
@@ -27,6 +27,23 @@ pub(super) enum Doing {
     },
     /// A command is given, with its place for what is said about it. Boxed: commands can be large.
     Command(Box<(Command, FileError)>),
+}
+
+impl Event {
+    /// Whether it makes something of that name that can send.
+    pub(super) fn makes(&self, name: &Name) -> bool {
+        let Doing::Command(given) = &self.doing else {
+            return false;
+        };
+        match &given.0 {
+            Command::Define {
+                name: made,
+                definition: Definition::Function { .. },
+            } => made == name,
+            Command::Variable(made) => made.contains(name),
+            _ => false,
+        }
+    }
 }
 
 /// `N:TURNS@SECS`, one message on a dial.

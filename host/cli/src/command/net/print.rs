@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use ps300::language;
-use rig::document::{FileErrors, Findings};
+use rig::document::Findings;
 use serde::Serialize;
 
 use super::diagnostics;
@@ -55,10 +55,7 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
             command: language::print(&located.what),
         }));
     }
-    console.warn(&found.warnings);
-    if !found.errors.is_empty() {
-        return Err(FileErrors(found.errors).into());
-    }
+    diagnostics::settle(found, console)?;
     for record in &records {
         if console.json() {
             console.record(record)?;

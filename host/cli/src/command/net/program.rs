@@ -5,23 +5,70 @@ use std::path::PathBuf;
 use ps300::Machine;
 use ps300::language::{self, Command, Definition, Diagnostic, Located, Name, Severity};
 use ps300::machine::ExecuteError;
+use ps300::machine::devices::READOUTS;
+use ps300::value::Kinds;
 use rig::document::Findings;
 use rig::document::source::Source;
+use rig::parameters::{LINK, PARAMETERS};
 
 use super::diagnostics;
 use super::run::Watch;
 use crate::console::Console;
 use crate::input;
 
-/// A machine that the files are loaded into one after the other.
-pub(super) fn machine() -> Machine {
-    Machine::new()
+/// A machine with the inlets of the rig, so that networks made for it can be connected to them.
+fn machine() -> Machine {
+    let mut machine = Machine::new();
+    for parameter in PARAMETERS {
+        let kinds: Vec<Kinds> = parameter.inlets.iter().map(|inlet| inlet.kinds).collect();
+        // Names of the table's own: a test of the rig keeps them apart from the machine's.
+        let _ = machine.declare_sink(parameter.name, &kinds);
+    }
+    machine
+}
+
+/// A figure's links are inlets too. Which figure a file is for is not known here, so every link that it
+/// names is taken to be there.
+fn declare_links(machine: &mut Machine, commands: &[Located<Command>]) {
+    let kinds: Vec<Kinds> = LINK.iter().map(|(kinds, _)| *kinds).collect();
+    for Located { what, .. } in commands {
+        if let Command::Connect { to, .. } | Command::Send { to, .. } | Command::Store { to, .. } = what
+            && is_link(&to.name)
+            && !machine.is_defined(to.name.as_str())
+        {
+            // A name that was read is a name.
+            let _ = machine.declare_sink(to.name.as_str(), &kinds);
+        }
+    }
+}
+
+fn is_link(name: &Name) -> bool {
+    name.split_structure()
+        .is_some_and(|(structure, _)| structure.eq_ignore_ascii_case("FIGURE"))
+}
+
+/// How many inputs something has that takes messages out of the network: a label, a lamp, a parameter of
+/// the rig. Nothing for names of other things.
+pub(super) fn host_inputs(name: &Name) -> Option<usize> {
+    let same = |other: &str| name.as_str().eq_ignore_ascii_case(other);
+    if let Some(parameter) = PARAMETERS.iter().find(|parameter| same(parameter.name)) {
+        return Some(parameter.inlets.len());
+    }
+    if is_link(name) {
+        return Some(LINK.len());
+    }
+    let is_readout = READOUTS.iter().any(|readout| match readout.numbers {
+        Some((first, last)) => (first..=last).any(|number| same(&format!("{}{number}", readout.name))),
+        None => same(readout.name),
+    });
+    is_readout.then_some(1)
 }
 
 /// Loads files in order, noting everything there is to say about them.
 pub(super) fn load(files: &[PathBuf], console: &Console, found: &mut Findings) -> Machine {
     let mut machine = machine();
     for source in sources(files, console, found) {
+        declare_links(&mut machine, &language::parse(source.text()).0);
         let remarks = machine.load(source.text());
         diagnostics::note(&source, (1, 1), remarks, found);
     }
@@ -41,12 +88,12 @@ pub(super) fn load_watched(
     let mut machine = self::machine();
     watch(&mut machine, watches, None);
     for source in sources(files, console, found) {
-        let remarks = reader.load(source.text());
-        let warnings = remarks
-            .into_iter()
-            .filter(|remark| remark.severity == Severity::Warning);
-        diagnostics::note(&source, (1, 1), warnings, found);
         let (commands, remarks) = language::parse(source.text());
+        declare_links(&mut reader, &commands);
+        declare_links(&mut machine, &commands);
+        let all = reader.load(source.text()).into_iter();
+        let warnings = all.filter(|remark| remark.severity == Severity::Warning);
+        diagnostics::note(&source, (1, 1), warnings, found);
         let errors = remarks
             .into_iter()
             .filter(|remark| remark.severity == Severity::Error);

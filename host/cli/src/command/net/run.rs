@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use ps300::Machine;
-use ps300::language::{Command, Definition, Name};
+use ps300::language::Name;
 use ps300::network::Limits;
-use rig::document::{FileErrors, Findings};
+use rig::document::Findings;
 
+use super::diagnostics;
 use super::events::{self, Doing, Event};
 use super::message::MessageRecord;
 use super::program;
@@ -43,7 +44,7 @@ pub(super) struct Args {
     /// Where network time ends, seconds; at the last event if not given
     #[arg(long, value_name = "SECS", value_parser = number::secs)]
     until: Option<f64>,
-    /// Prints what leaves this output, or what reaches this input of a label or lamp
+    /// Prints what leaves this output, or what reaches this input of a label, a lamp or a parameter
     #[arg(long, value_name = "NAME<N>", value_parser = Watch::parse)]
     watch: Vec<Watch>,
     /// Turns dial N by TURNS at SECS, as one message
@@ -90,10 +91,7 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     }
     // Stable: at one time dials come first, then commands as written.
     events.sort_by(|a, b| a.secs.total_cmp(&b.secs));
-    console.warn(&found.warnings);
-    if !found.errors.is_empty() {
-        return Err(FileErrors(found.errors).into());
-    }
+    diagnostics::settle(found, console)?;
     args.watch
         .iter()
         .try_for_each(|watch| check_watch(watch, &machine, &events))?;
@@ -116,25 +114,17 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
 /// An output that neither is there nor will be made by an event was misspelt.
 fn check_watch(watch: &Watch, machine: &Machine, events: &[Event]) -> Result<(), Failure> {
     let Watch { name, output } = watch;
-    let made = |event: &Event| match &event.doing {
-        Doing::Command(command) => match &command.0 {
-            Command::Define {
-                name: made,
-                definition: Definition::Function { .. },
-            } => made == name,
-            Command::Variable(made) => made.contains(name),
-            _ => false,
-        },
-        Doing::Dial { .. } => false,
-    };
-    let is_there = machine.outlet(name.as_str(), *output).is_some();
-    if is_there || events.iter().any(made) || is_readout(machine, name) {
+    let inputs = program::host_inputs(name);
+    let is_there = machine.outlet(name.as_str(), *output).is_some()
+        || inputs.is_some_and(|count| usize::from(*output) <= count);
+    if is_there || events.iter().any(|event| event.makes(name)) {
         return Ok(());
     }
-    let outputs = |view: &ps300::machine::InstanceView<'_>| view.outputs.len();
     let known = machine.instances();
-    let hint = match known.iter().find(|view| view.name == name).map(outputs) {
-        Some(count) => format!("{name} has outputs <1> to <{count}>"),
+    let outputs = known.iter().find(|view| view.name == name);
+    let hint = match outputs.map(|view| view.outputs.len()).or(inputs) {
+        Some(1) => format!("{name} has <1> only"),
+        Some(count) => format!("{name} has <1> to <{count}>"),
         None if machine.is_defined(name.as_str()) => format!("{name} sends nothing; watch what it is fed by"),
         None => {
             let names: Vec<&str> = known.iter().map(|view| view.name.as_str()).take(20).collect();
@@ -142,17 +132,6 @@ fn check_watch(watch: &Watch, machine: &Machine, events: &[Event]) -> Result<(),
         }
     };
     Err(Failure::refused(format!("there is no output {name}<{output}> to watch")).with_hint(hint))
-}
-
-/// Labels, lamps and the like: things of the machine that take messages for the host.
-fn is_readout(machine: &Machine, name: &Name) -> bool {
-    let sends = |view: &ps300::machine::InstanceView<'_>| view.name == name;
-    let listed = ps300::machine::devices::READOUTS.iter().any(|readout| {
-        let length = readout.name.len();
-        let begin = name.as_str().get(..length);
-        begin.is_some_and(|begin| begin.eq_ignore_ascii_case(readout.name))
-    });
-    listed && machine.is_defined(name.as_str()) && !machine.instances().iter().any(sends)
 }
 
 /// A network while it runs.
