@@ -9,4 +9,5 @@
 mod display;
 pub mod panels;
 pub mod render;
+pub mod still;
 pub mod studio;

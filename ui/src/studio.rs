@@ -22,6 +22,27 @@ pub trait Session {
     fn send(&self, command: Command);
 }
 
+impl Session for rig::live::Live {
+    fn snapshot(&self) -> Arc<Snapshot> {
+        rig::live::Live::snapshot(self)
+    }
+
+    fn send(&self, command: Command) {
+        rig::live::Live::send(self, command);
+    }
+}
+
+/// Shared, so that whoever started the rig can still close it when the window is gone.
+impl<S: Session + ?Sized> Session for Arc<S> {
+    fn snapshot(&self) -> Arc<Snapshot> {
+        (**self).snapshot()
+    }
+
+    fn send(&self, command: Command) {
+        (**self).send(command);
+    }
+}
+
 /// All panels, in the order the Tab key visits them.
 pub struct Studio {
     panels: Vec<(Place, Box<dyn Panel>)>,

@@ -133,20 +133,19 @@ impl<'a> Button<'a> {
             style::hair(edge),
             egui::StrokeKind::Inside,
         );
-        match self.icon {
-            Some(icon) => paint_icon(painter, icon, rect.center(), content),
-            None => {
-                let text = (self.text, style::words(self.size));
-                let width = rect.width() - theme::STEP;
-                style::line(
-                    painter,
-                    rect.center(),
-                    Align2::CENTER_CENTER,
-                    text,
-                    content,
-                    width,
-                );
-            }
+        if let Some(icon) = self.icon {
+            paint_icon(painter, icon, rect.center(), content);
+        } else {
+            let text = (self.text, style::words(self.size));
+            let width = rect.width() - theme::STEP;
+            style::line(
+                painter,
+                rect.center(),
+                Align2::CENTER_CENTER,
+                text,
+                content,
+                width,
+            );
         }
         focus_ring(ui, &response);
         tooltip(response, self.tip, self.keys)

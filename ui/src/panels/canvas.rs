@@ -19,14 +19,20 @@ struct Card {
     views: BTreeMap<&'static str, (Target, Shown)>,
 }
 
-/// Prepares the card; once per window, before the first picture.
+/// Prepares a window's card; once, before the first picture.
 pub fn setup(state: &RenderState) {
-    let card = Card {
-        pipeline: LinePipeline::new(&state.device),
-        blit: Blit::new(&state.device, state.target_format),
+    let resources = &mut state.renderer.write().callback_resources;
+    install(resources, &state.device, state.target_format);
+}
+
+/// The same for a renderer without a window, whose pictures have the format `onto`.
+pub fn install(resources: &mut CallbackResources, device: &wgpu::Device, onto: wgpu::TextureFormat) {
+    let pipeline = LinePipeline::new(device);
+    resources.insert(Card {
+        pipeline,
+        blit: Blit::new(device, onto),
         views: BTreeMap::new(),
-    };
-    state.renderer.write().callback_resources.insert(card);
+    });
 }
 
 struct View {
@@ -55,7 +61,7 @@ impl CallbackTrait for View {
         } = card;
         let fits = views
             .get(self.name)
-            .is_some_and(|(target, _)| target.size() == self.size);
+            .is_some_and(|(target, _)| target.texture().size() == self.size);
         if !fits {
             let target = Target::new(device, pipeline, self.size);
             let shown = blit.bind(device, &target);

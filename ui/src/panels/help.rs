@@ -43,7 +43,7 @@ pub fn show(ui: &Ui, area: Rect) {
                 Align2::LEFT_TOP,
                 group.to_uppercase(),
                 font,
-                ink(theme::SELECTED),
+                ink(theme::FAINT),
             );
             y += theme::SIZE_SMALL + theme::STEP + 2.0;
             let more = MORE.iter().filter(|m| m.0 == *group).map(|m| (m.1, m.2));

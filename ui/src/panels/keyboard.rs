@@ -161,7 +161,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
         Act::MoveKey(-1),
         "keys",
         "Ctrl-Left, -Right",
-        "move the selected key a frame",
+        "move the key a frame",
     ),
     row((CTRL, Key::ArrowRight), Act::MoveKey(1), "keys", "", ""),
     row(
@@ -248,13 +248,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     ),
     row((NONE, Key::Equals), Act::Speed(true), "time", "", ""),
     row((NONE, Key::K), Act::Store, "keys", "K", "store the pose as a key"),
-    row(
-        (NONE, Key::C),
-        Act::Copy,
-        "keys",
-        "C",
-        "copy the key before to now",
-    ),
+    row((NONE, Key::C), Act::Copy, "keys", "C", "copy the last key here"),
     row(
         (NONE, Key::Delete),
         Act::Delete,
@@ -315,7 +309,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
         Act::Dial(-10.0),
         "desk",
         "[ ]  with Shift",
-        "turn the chosen dial, further",
+        "turn the chosen dial",
     ),
     row((SHIFT, Key::CloseBracket), Act::Dial(10.0), "desk", "", ""),
     row((NONE, Key::OpenBracket), Act::Dial(-1.0), "desk", "", ""),

@@ -56,24 +56,21 @@ impl Panel for Puppet {
             seen.clip.is_some(),
             commands,
         );
-        match &seen.puppet {
-            Some(puppet) => {
-                state_line(ui, status, puppet);
-                remark_lines(ui, remark, puppet);
-                joints::show(ui, rest, &puppet.joints);
-            }
-            None => {
-                let text = ("This show has no puppet", style::words(theme::SIZE_BODY));
-                style::line(
-                    ui.painter(),
-                    status.left_top(),
-                    Align2::LEFT_TOP,
-                    text,
-                    theme::DIM,
-                    status.width(),
-                );
-            }
-        }
+        let Some(puppet) = &seen.puppet else {
+            let text = ("This show has no puppet", style::words(theme::SIZE_BODY));
+            style::line(
+                ui.painter(),
+                status.left_top(),
+                Align2::LEFT_TOP,
+                text,
+                theme::DIM,
+                status.width(),
+            );
+            return;
+        };
+        state_line(ui, status, puppet);
+        remark_lines(ui, remark, puppet);
+        joints::show(ui, rest, &puppet.joints);
     }
 }
 
@@ -98,12 +95,22 @@ fn state_line(ui: &Ui, area: Rect, puppet: &PuppetView) {
         ui.painter().circle_filled(lamp, 4.5, ink(colour));
     }
     let at = pos2(area.left() + 18.0, area.center().y);
-    ui.painter().text(
+    let painter = ui.painter();
+    let said = painter.text(
         at,
         Align2::LEFT_CENTER,
         word,
         style::words(theme::SIZE_TITLE),
         ink(colour),
+    );
+    let torque = if puppet.torque { "torque on" } else { "no torque" };
+    let at = pos2(said.right() + theme::MARGIN, area.center().y + 1.0);
+    painter.text(
+        at,
+        Align2::LEFT_CENTER,
+        torque,
+        style::words(theme::SIZE_SMALL),
+        ink(theme::DIM),
     );
     if let Some(secs) = puppet.clip_secs {
         let text = format!("{} s", clock_text(secs));

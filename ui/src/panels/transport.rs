@@ -56,7 +56,7 @@ impl Panel for Transport {
         let ground = Rect::from_min_max(curve.min, track.max);
         ui.painter()
             .rect_filled(ground, style::round(), ink(theme::GROUND));
-        self.scrub(
+        scrub(
             ui,
             Rect::from_min_max(curve.min, ruler.max),
             &line,
@@ -71,32 +71,6 @@ impl Panel for Transport {
 }
 
 impl Transport {
-    /// The whole strip is for scrubbing; keys and coefficients lie above it and take the pointer first.
-    fn scrub(&self, ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut Commands<'_>) {
-        let id = ui.scope_id().with("scrub");
-        let response = button::spot(ui, area, id, Sense::click_and_drag(), (Role::Canvas, "scrub"));
-        let pressed = response.dragged() || response.clicked();
-        if let (true, Some(at)) = (pressed, response.interact_pointer_pos()) {
-            let secs = line.secs(at.x);
-            if (secs - seen.transport.secs).abs() > 1e-6 {
-                commands.push(Command::Transport(TransportCommand::Seek { secs }));
-            }
-        }
-        if response.hovered() && !response.dragged() {
-            if let Some(at) = response.hover_pos() {
-                let x = at.x.clamp(line.left, line.right).round();
-                ui.painter()
-                    .vline(x, area.top()..=area.bottom() - RULER, style::hair(theme::EDGE));
-            }
-        }
-        button::focus_ring(ui, &response);
-        button::tooltip(
-            response,
-            "Drag to move through time.",
-            "Left, Right; Shift for ten frames",
-        );
-    }
-
     fn track(&mut self, ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut Commands<'_>) {
         ui.painter()
             .hline(area.x_range(), area.top(), style::hair(theme::EDGE));
@@ -150,6 +124,30 @@ impl Transport {
     }
 }
 
+/// The whole strip is for scrubbing; keys and coefficients lie above it and take the pointer first.
+fn scrub(ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut Commands<'_>) {
+    let id = ui.scope_id().with("scrub");
+    let response = button::spot(ui, area, id, Sense::click_and_drag(), (Role::Canvas, "scrub"));
+    let pressed = response.dragged() || response.clicked();
+    if let (true, Some(at)) = (pressed, response.interact_pointer_pos()) {
+        let secs = line.secs(at.x);
+        if (secs - seen.transport.secs).abs() > 1e-6 {
+            commands.push(Command::Transport(TransportCommand::Seek { secs }));
+        }
+    }
+    if let (Some(at), false) = (response.hover_pos(), response.dragged()) {
+        let x = at.x.clamp(line.left, line.right).round();
+        ui.painter()
+            .vline(x, area.top()..=area.bottom() - RULER, style::hair(theme::EDGE));
+    }
+    button::focus_ring(ui, &response);
+    button::tooltip(
+        response,
+        "Drag to move through time.",
+        "Left, Right; Shift for ten frames",
+    );
+}
+
 /// The nearest that two keys may come, seconds: half a frame at 24 a second.
 const APART_SECS: f64 = 1.0 / 48.0;
 
@@ -166,54 +164,64 @@ pub fn between_neighbours(seen: &Snapshot, key: usize, secs: f64) -> f64 {
     secs.min(high).max(low)
 }
 
-fn button_row(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
-    let mut left = row.left();
-    let mut cell = |width: f32, gap: f32| {
-        let rect = Rect::from_min_size(pos2(left, row.top()), vec2(width, row.height()));
-        left += width + gap;
-        rect
+/// Icon, name, what it does, its key, how it looks, width, and what it asks for.
+type Order = (
+    Icon,
+    &'static str,
+    &'static str,
+    &'static str,
+    Tone,
+    f32,
+    TransportCommand,
+);
+
+fn orders(seen: &Snapshot) -> [Order; 6] {
+    let transport = &seen.transport;
+    let seek = |secs| TransportCommand::Seek { secs };
+    let (icon, tone) = if transport.playing {
+        (Icon::Pause, Tone::Live)
+    } else {
+        (Icon::Play, Tone::Plain)
     };
-    let steps: [(Icon, &str, &str, &str, TransportCommand); 2] = [
+    let again = if transport.looped { Tone::On } else { Tone::Off };
+    let to_start = seek(transport.start_secs);
+    let to_end = seek(transport.end_secs);
+    let back = TransportCommand::Key(-1);
+    [
         (
             Icon::Start,
             "start",
             "Goes to the first key.",
             "Home",
-            TransportCommand::Seek {
-                secs: seen.transport.start_secs,
-            },
+            Tone::Plain,
+            32.0,
+            to_start,
         ),
         (
             Icon::Previous,
             "previous key",
             "Goes to the key before.",
             "Up",
-            TransportCommand::Key(-1),
+            Tone::Plain,
+            32.0,
+            back,
         ),
-    ];
-    for (icon, name, tip, keys, order) in steps {
-        if Button::icon(icon, name, tip, keys)
-            .show(ui, cell(32.0, theme::STEP))
-            .clicked()
-        {
-            commands.push(Command::Transport(order));
-        }
-    }
-    let (icon, tone) = if seen.transport.playing {
-        (Icon::Pause, Tone::Live)
-    } else {
-        (Icon::Play, Tone::Plain)
-    };
-    let play = Button::icon(icon, "play", "Plays on screen, or pauses.", "Space").tone(tone);
-    if play.show(ui, cell(56.0, theme::STEP)).clicked() {
-        commands.push(Command::Transport(TransportCommand::Toggle));
-    }
-    let steps: [(Icon, &str, &str, &str, TransportCommand); 2] = [
+        (
+            icon,
+            "play",
+            "Plays on screen, or pauses.",
+            "Space",
+            tone,
+            56.0,
+            TransportCommand::Toggle,
+        ),
         (
             Icon::Next,
             "next key",
             "Goes to the next key.",
             "Down",
+            Tone::Plain,
+            32.0,
             TransportCommand::Key(1),
         ),
         (
@@ -221,25 +229,36 @@ fn button_row(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'
             "end",
             "Goes to the last key.",
             "End",
-            TransportCommand::Seek {
-                secs: seen.transport.end_secs,
-            },
+            Tone::Plain,
+            32.0,
+            to_end,
         ),
-    ];
-    for (icon, name, tip, keys, order) in steps {
+        (
+            Icon::Loop,
+            "loop",
+            "Starts over at the end.",
+            "L",
+            again,
+            32.0,
+            TransportCommand::ToggleLoop,
+        ),
+    ]
+}
+
+fn button_row(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
+    let mut left = row.left();
+    for (icon, name, tip, keys, tone, width, order) in orders(seen) {
+        let rect = Rect::from_min_size(pos2(left, row.top()), vec2(width, row.height()));
         if Button::icon(icon, name, tip, keys)
-            .show(ui, cell(32.0, theme::STEP))
+            .tone(tone)
+            .show(ui, rect)
             .clicked()
         {
             commands.push(Command::Transport(order));
         }
+        left += width + theme::STEP;
     }
-    let again =
-        Button::icon(Icon::Loop, "loop", "Starts over at the end.", "L").switch(seen.transport.looped);
-    if again.show(ui, cell(32.0, theme::MARGIN)).clicked() {
-        commands.push(Command::Transport(TransportCommand::ToggleLoop));
-    }
-    readout(ui, pos2(left + theme::STEP, row.center().y), seen);
+    readout(ui, pos2(left + theme::MARGIN, row.center().y), seen);
     right_side(ui, row, seen, commands);
 }
 

@@ -31,6 +31,7 @@ impl Camera {
     }
 
     /// The same seen from the right: V' = Ry(−90°) V. What was nearest the viewer is now on the left.
+    #[must_use]
     pub fn side(&self) -> Camera {
         // Written out, so that the side view is exact and not 6e-17 off.
         let quarter = DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X);

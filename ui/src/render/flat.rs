@@ -211,7 +211,7 @@ fn text(label: &super::scene::Label, scene: &Scene, port: &Viewport) -> Text {
 /// The colour of `ink` at a depth of −1 (far) … 1 (near).
 fn inked(ink: Ink, depth: f64) -> Rgb {
     let cue = if ink.cued {
-        let near = (depth.clamp(-1.0, 1.0) as f32 + 1.0) / 2.0;
+        let near = f32::midpoint(depth.clamp(-1.0, 1.0) as f32, 1.0);
         // The root keeps the middle of the picture bright and lets only the far half sink.
         theme::CUE_FAR + (1.0 - theme::CUE_FAR) * near.sqrt()
     } else {

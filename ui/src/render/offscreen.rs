@@ -25,21 +25,23 @@ pub enum GpuError {
     Read(String),
 }
 
-/// One view: its picture on the card, and what is drawn into it.
-pub struct Target {
+/// A picture on the card.
+pub struct Texture {
     size: [u32; 2],
-    texture: wgpu::Texture,
+    pixels: wgpu::Texture,
     view: wgpu::TextureView,
-    lines: LineBuffer,
 }
 
-impl Target {
-    /// A black picture of `size` pixels, each side at least 1.
-    pub fn new(device: &wgpu::Device, pipeline: &LinePipeline, size: [u32; 2]) -> Target {
+impl Texture {
+    /// How colours are stored.
+    pub const FORMAT: wgpu::TextureFormat = FORMAT;
+
+    /// A picture of `size` pixels, each side brought between 1 and what the card can do.
+    pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Texture {
         let most = device.limits().max_texture_dimension_2d;
         let size = size.map(|side| side.clamp(1, most));
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("view"),
+        let pixels = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("picture"),
             size: wgpu::Extent3d {
                 width: size[0],
                 height: size[1],
@@ -54,13 +56,8 @@ impl Target {
                 | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Target {
-            size,
-            texture,
-            view,
-            lines: LineBuffer::new(device, pipeline),
-        }
+        let view = pixels.create_view(&wgpu::TextureViewDescriptor::default());
+        Texture { size, pixels, view }
     }
 
     /// Pixels across and down.
@@ -68,15 +65,8 @@ impl Target {
         self.size
     }
 
-    /// Draws a projected scene over the ground.
-    pub fn render(
-        &mut self,
-        (device, queue): (&wgpu::Device, &wgpu::Queue),
-        encoder: &mut wgpu::CommandEncoder,
-        pipeline: &LinePipeline,
-        flat: &Flat,
-    ) {
-        self.lines.upload(device, queue, flat, self.size);
+    /// A pass that begins with the ground's colour everywhere.
+    pub fn pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
         let channel = |c: u8| f64::from(c) / 255.0;
         let ground = theme::GROUND;
         let clear = wgpu::Color {
@@ -85,8 +75,8 @@ impl Target {
             b: channel(ground.2),
             a: 1.0,
         };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("view"),
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("picture"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: &self.view,
                 resolve_target: None,
@@ -97,8 +87,7 @@ impl Target {
                 },
             })],
             ..wgpu::RenderPassDescriptor::default()
-        });
-        self.lines.draw(pipeline, &mut pass);
+        })
     }
 
     /// Copies the picture back into memory; waits for the card.
@@ -113,7 +102,7 @@ impl Target {
         });
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_texture_to_buffer(
-            self.texture.as_image_copy(),
+            self.pixels.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
                 buffer: &buffer,
                 layout: wgpu::TexelCopyBufferLayout {
@@ -143,6 +132,40 @@ impl Target {
             .flat_map(|padded| padded[..row].iter().copied())
             .collect();
         Ok(Picture { width, height, rgba })
+    }
+}
+
+/// One view: its picture on the card, and what is drawn into it.
+pub struct Target {
+    texture: Texture,
+    lines: LineBuffer,
+}
+
+impl Target {
+    /// An empty picture of `size` pixels.
+    pub fn new(device: &wgpu::Device, pipeline: &LinePipeline, size: [u32; 2]) -> Target {
+        Target {
+            texture: Texture::new(device, size),
+            lines: LineBuffer::new(device, pipeline),
+        }
+    }
+
+    /// The picture.
+    pub fn texture(&self) -> &Texture {
+        &self.texture
+    }
+
+    /// Draws a projected scene over the ground.
+    pub fn render(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &LinePipeline,
+        flat: &Flat,
+    ) {
+        self.lines.upload(device, queue, flat, self.texture.size);
+        let mut pass = self.texture.pass(encoder);
+        self.lines.draw(pipeline, &mut pass);
     }
 }
 
@@ -202,7 +225,7 @@ impl Blit {
             entries: &[
                 wgpu::BindGroupEntry {
                     binding: 0,
-                    resource: wgpu::BindingResource::TextureView(&target.view),
+                    resource: wgpu::BindingResource::TextureView(&target.texture.view),
                 },
                 wgpu::BindGroupEntry {
                     binding: 1,
@@ -264,16 +287,21 @@ impl Headless {
         })
     }
 
+    /// The card's two halves, for renderers of one's own.
+    pub fn device_and_queue(&self) -> (&wgpu::Device, &wgpu::Queue) {
+        (&self.device, &self.queue)
+    }
+
     /// Draws a scene without its labels.
     pub fn draw(&self, scene: &Scene, width: u32, height: u32, scale: f32) -> Result<Picture, GpuError> {
         let mut target = Target::new(&self.device, &self.pipeline, [width, height]);
-        let [width, height] = target.size();
+        let [width, height] = target.texture.size;
         let flat = Flat::new(scene, &Viewport::of_size(width, height).scaled(scale));
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         target.render((&self.device, &self.queue), &mut encoder, &self.pipeline, &flat);
         self.queue.submit([encoder.finish()]);
-        target.read(&self.device, &self.queue)
+        target.texture.read(&self.device, &self.queue)
     }
 }

@@ -11,6 +11,8 @@ use super::theme;
 use super::trail::{self, Samples};
 
 /// What is drawn beside the figure itself.
+// Four switches that a person sets one by one; any combination is legal.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// Poses before and after.

@@ -1,34 +1,27 @@
-//! The studio's window: pictures on a software rasteriser where there is one, hands and keys without.
+//! The studio's window on a software rasteriser: what must be seen, and what must not.
 
 use std::path::PathBuf;
 
-use egui::{Key, Modifiers, Rect, pos2};
-use egui_kittest::{Harness, kittest::Queryable};
-use rig::{Command, EditCommand, PuppetCommand, Snapshot, Touch, TransportCommand};
+use egui_kittest::Harness;
+use rig::{Command, Snapshot};
 use ui::panels::{canvas, style};
+use ui::render::film::write_png;
 use ui::render::offscreen::Headless;
+use ui::render::picture::Picture;
+use ui::render::{frame, sheet, stage, theme};
 use ui::studio::Studio;
 
 use crate::walker;
 
 /// A studio on one snapshot, and everything hands wanted so far.
-struct Bench {
-    studio: Studio,
-    seen: Snapshot,
-    said: Vec<Command>,
+pub(crate) struct Bench {
+    pub(crate) studio: Studio,
+    pub(crate) seen: Snapshot,
+    pub(crate) said: Vec<Command>,
 }
 
-impl Bench {
-    fn new(seen: Snapshot) -> Bench {
-        Bench {
-            studio: Studio::new(),
-            seen,
-            said: Vec::new(),
-        }
-    }
-}
-
-fn harness(seen: Snapshot, size: [f32; 2], card: bool) -> Harness<'static, Bench> {
+/// A window of `size`; with `card`, one that can also be drawn.
+pub(crate) fn harness(seen: Snapshot, size: [f32; 2], card: bool) -> Harness<'static, Bench> {
     let mut builder = Harness::builder()
         .with_size(size)
         .with_context_setup(style::apply);
@@ -44,52 +37,129 @@ fn harness(seen: Snapshot, size: [f32; 2], card: bool) -> Harness<'static, Bench
         let said = bench.studio.ui(ui, &bench.seen);
         bench.said.extend(said);
     };
-    builder.build_ui_state(draw, Bench::new(seen))
+    builder.build_ui_state(
+        draw,
+        Bench {
+            studio: Studio::new(),
+            seen,
+            said: Vec::new(),
+        },
+    )
 }
 
-/// Where pictures are left to be looked at.
-fn picture_path(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name)
+/// Says aloud that there is nothing to draw with.
+fn no_card() -> bool {
+    Headless::start()
+        .inspect_err(|error| eprintln!("SKIPPED: {error}"))
+        .is_err()
+}
+
+/// Leaves a picture where a person can look at it.
+fn keep(picture: &Picture, name: &str) {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let file = std::fs::File::create(&path).expect("the folder is the tests' own");
+    write_png(picture, file).expect("a picture is a PNG");
+}
+
+fn drawn(seen: Snapshot, size: [f32; 2], name: &str) -> Picture {
+    let mut harness = harness(seen, size, true);
+    harness.run_steps(2);
+    let image = harness.render().expect("the adapter that started also draws");
+    let picture = Picture {
+        width: image.width(),
+        height: image.height(),
+        rgba: image.into_raw(),
+    };
+    keep(&picture, &format!("studio-{name}-{}.png", size[0]));
+    picture
+}
+
+/// How many pixels are nearly `colour`.
+fn count(picture: &Picture, colour: theme::Rgb) -> usize {
+    let near = |p: &[u8]| {
+        [(p[0], colour.0), (p[1], colour.1), (p[2], colour.2)]
+            .iter()
+            .all(|(a, b)| a.abs_diff(*b) < 24)
+    };
+    picture.rgba.chunks_exact(4).filter(|p| near(p)).count()
 }
 
 #[test]
-fn the_studio_looks_right_at_both_sizes() {
-    if let Err(error) = Headless::start() {
-        eprintln!("SKIPPED: {error}");
+fn each_accent_has_one_meaning() {
+    if no_card() {
         return;
     }
-    for (name, seen) in [
-        ("playing", walker::playing()),
-        ("posing", walker::posing()),
-        ("empty", Snapshot::default()),
-    ] {
-        for size in [[1280.0, 720.0], [1920.0, 1080.0]] {
-            let mut harness = harness(seen.clone(), size, true);
-            harness.run_steps(2);
-            let picture = harness.render().expect("the adapter that started also draws");
-            picture
-                .save(picture_path(&format!("studio-{name}-{}.png", size[0])))
-                .expect("the folder is ours");
-        }
+    for size in [[1280.0, 720.0], [1920.0, 1080.0]] {
+        let empty = drawn(Snapshot::default(), size, "empty");
+        let playing = drawn(walker::playing(), size, "playing");
+        let posing = drawn(walker::posing(), size, "posing");
+        assert_eq!(count(&empty, theme::FAULTED), 0, "red where nothing is faulted");
+        assert_eq!(count(&playing, theme::FAULTED), 0, "red where nothing is faulted");
+        assert!(
+            count(&posing, theme::FAULTED) > 5000,
+            "a fault must be found at once"
+        );
+        assert_eq!(
+            count(&empty, theme::SELECTED),
+            0,
+            "amber where nothing is selected"
+        );
+        assert_eq!(
+            count(&playing, theme::SELECTED),
+            0,
+            "amber where nothing is selected"
+        );
+        assert!(count(&posing, theme::SELECTED) > 150);
+        assert!(count(&playing, theme::LIVE) > 300);
+        assert!(
+            count(&playing, theme::LINE) > 1000,
+            "the figure is the brightest thing on the ground"
+        );
     }
 }
 
 #[test]
-fn a_film_frame_and_a_sheet_need_no_card() {
+fn the_help_page_and_sharper_screens() {
+    if no_card() {
+        return;
+    }
+    let mut studio = Studio::new();
+    studio.choices().help = true;
+    let help = ui::still::draw(&mut studio, &walker::playing(), (1280, 720), 1.0).expect("an adapter");
+    keep(&help, "studio-help.png");
+    let sharp =
+        ui::still::draw(&mut Studio::new(), &walker::playing(), (2560, 1440), 2.0).expect("an adapter");
+    assert_eq!((sharp.width, sharp.height), (2560, 1440));
+    keep(&sharp, "studio-sharp.png");
+}
+
+/// Changes only on purpose: look at `frame.png` and `poses.png` before you write new numbers here.
+const FRAME_HASH: u64 = 0x6cec_239d_e1a5_fce7;
+const SHEET_HASH: u64 = 0xb5ae_07a9_6e5c_39f0;
+
+#[test]
+fn films_and_sheets_are_the_same_bytes_everywhere() {
     let seen = walker::playing();
-    let picture = ui::render::frame::draw(&seen, &ui::render::stage::Look::film(), 960, 540);
-    let file = std::fs::File::create(picture_path("frame.png")).expect("the folder is ours");
-    ui::render::film::write_png(&picture, file).expect("a picture is a PNG");
-    let figure = walker::figure();
-    let clip = walker::clip(&figure);
-    let sheet = ui::render::sheet::draw(
+    let picture = frame::draw(&seen, &stage::Look::film(), 960, 540);
+    keep(&picture, "frame.png");
+    let camera = stage::camera(&seen.view);
+    let clip = walker::clip(&walker::figure());
+    let layout = sheet::Layout::default();
+    let poses = sheet::draw(
         &clip,
         &walker::shapes(),
         &walker::KEY_SECS,
-        &ui::render::stage::camera(&seen.view),
-        &ui::render::sheet::Layout::default(),
+        &camera,
+        &layout,
         "first steps: walk",
     );
-    let file = std::fs::File::create(picture_path("poses.png")).expect("the folder is ours");
-    ui::render::film::write_png(&sheet, file).expect("a picture is a PNG");
+    keep(&poses, "poses.png");
+    let hashes = (picture.hash(), poses.hash());
+    assert_eq!(
+        hashes,
+        (FRAME_HASH, SHEET_HASH),
+        "they are {:#018x} and {:#018x}",
+        hashes.0,
+        hashes.1
+    );
 }

@@ -11,8 +11,11 @@ use rig::{
     PuppetState, PuppetView, Snapshot, TransportView, ViewState,
 };
 
-/// Number, name, freedoms, length, children with their places (`ar.str` of the thesis).
-const LINKS: [(u32, &str, u32, f64, &[(u32, [f64; 3])]); 15] = [
+/// Number, name, freedoms, length, children with their places.
+type Row = (u32, &'static str, u32, f64, &'static [(u32, [f64; 3])]);
+
+/// `ar.str` of the thesis.
+const LINKS: [Row; 15] = [
     (0, "head", 3, 0.2, &[(1, [0.0, 0.0, 0.2])]),
     (
         1,
@@ -249,6 +252,8 @@ fn puppet() -> PuppetView {
         stale_discarded: 0,
         interventions: 3,
         late_cycles: 1,
+        torque: true,
+        ..PuppetView::default()
     }
 }
 
@@ -299,7 +304,7 @@ pub(crate) fn playing() -> Snapshot {
         view: ViewState {
             azimuth_rad: 0.6,
             elevation_rad: 0.12,
-            scale: 1.45,
+            scale: 0.88,
             centre: DVec3::new(0.0, 0.74, 0.0),
         },
         puppet: Some(puppet()),
