@@ -3,7 +3,7 @@
 //! `CONNECT gain<1>:<1>VIEW;` in a network file reaches the table below. Reading the table is reading the
 //! reference: `docs/parameters.md` is made from it.
 
-use ps300::value::{Kinds, Value};
+use ps300::value::{Kind, Kinds, Value};
 
 use crate::command::{Command, PoseCommand, PuppetCommand, Side, TransportCommand, ViewCommand};
 
@@ -89,13 +89,18 @@ fn puppet(command: PuppetCommand) -> Request {
     Request::Command(Command::Puppet(command))
 }
 
+/// Two components, or three of which the third is not needed.
+const PLANE_OR_SPACE: Kinds = Kinds::of(&[Kind::Vector2, Kind::Vector3]);
+/// Three components.
+const SPACE: Kinds = Kinds::of(&[Kind::Vector3]);
+
 /// All parameters but the figure's links, which are named after the figure (`FIGURE.rua`, see [`LINK`]).
 pub const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "POSE",
         inlets: &[
             inlet(
-                Kinds::VECTOR,
+                PLANE_OR_SPACE,
                 "cursor in the front view, −1…1, y up: the selected link follows it",
                 |v| match v {
                     Value::Vector2(p) if p.is_finite() => Some(pose(PoseCommand::Cursor([p.x, p.y]))),
@@ -124,7 +129,7 @@ pub const PARAMETERS: &[Parameter] = &[
                 "twists the selected link about its axis, degrees, added",
                 |v| Some(pose(PoseCommand::Twist { by_rad: degrees(v)? })),
             ),
-            inlet(Kinds::VECTOR, "moves the root, metres, added", |v| match v {
+            inlet(SPACE, "moves the root, metres, added", |v| match v {
                 Value::Vector3(p) if p.is_finite() => Some(pose(PoseCommand::RootBy(p.to_array()))),
                 _ => None,
             }),
