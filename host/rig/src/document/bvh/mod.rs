@@ -7,6 +7,7 @@
 mod euler;
 mod export;
 mod import;
+mod positions;
 mod read;
 mod skeleton;
 

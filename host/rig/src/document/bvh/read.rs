@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 
+use super::positions;
 use super::skeleton::{CHANNEL_WORDS, Channel, PositionStyle, Skeleton, SkeletonJoint};
 use crate::document::fault::{FileErrors, Findings};
 use crate::document::limits::{KEY_GAP_SECS_MIN, KEYS_MAX, LINKS_MAX, SECS_MAX};
@@ -136,7 +137,7 @@ impl<'a> Reader<'a> {
         let (frames, frame_secs) = self.frames()?;
         let values = self.rows(frames, skeleton.column_count())?;
         if self.found.errors.is_empty() {
-            self.position_styles(&mut skeleton, &values);
+            positions::tell_styles(self.source, &mut skeleton, &values, &mut self.found);
         }
         Ok(BvhFile {
             skeleton,
@@ -354,48 +355,5 @@ impl<'a> Reader<'a> {
         }
         let message = format!("{more} rows beyond the {frames} that `Frames:` promises are ignored");
         self.found.warn(self.source.error_at(at, message));
-    }
-
-    /// Finds out what position channels below the root mean; bones that change length are refused.
-    fn position_styles(&mut self, skeleton: &mut Skeleton, values: &[f64]) {
-        let columns = skeleton.column_count().max(1);
-        let tolerance = 1e-4 * skeleton.height();
-        let mut first = 0;
-        for (index, joint) in skeleton.joints.iter_mut().enumerate() {
-            let at = first;
-            first += joint.channels.len();
-            if index == 0
-                || !joint
-                    .channels
-                    .iter()
-                    .any(|channel| matches!(channel, Channel::Position(_)))
-            {
-                continue;
-            }
-            let agrees = |expected: DVec3| {
-                values.chunks_exact(columns).all(|row| {
-                    joint
-                        .channels
-                        .iter()
-                        .zip(&row[at..])
-                        .all(|(channel, value)| match channel {
-                            Channel::Position(axis) => (value - expected[*axis as usize]).abs() <= tolerance,
-                            Channel::Rotation(_) => true,
-                        })
-                })
-            };
-            if agrees(DVec3::ZERO) {
-                joint.positions = PositionStyle::Added;
-            } else if agrees(joint.offset) {
-                joint.positions = PositionStyle::Repeated;
-            } else {
-                let message = format!(
-                    "joint `{}` moves against its parent; only the root may",
-                    joint.name
-                );
-                let error = super::FileError::whole(self.source.path(), message);
-                self.found.error(error.with_hint("export it with rigid bones"));
-            }
-        }
     }
 }
