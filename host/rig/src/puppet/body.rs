@@ -211,12 +211,12 @@ fn leader(
 
 /// The profile's link axes when everybody stands upright and looks at the viewer: z down along the link, x to
 /// the body's own right, y to its back; world axes are x right, y up, z towards the viewer.
-fn upright() -> DMat3 {
+pub(super) fn upright() -> DMat3 {
     DMat3::from_cols(DVec3::NEG_X, DVec3::NEG_Z, DVec3::NEG_Y)
 }
 
 /// The groups as a tree of links, so that they can be followed as a figure is.
-fn tree_of(profile: &PuppetProfile) -> Vec<LinkSpec> {
+pub(super) fn tree_of(profile: &PuppetProfile) -> Vec<LinkSpec> {
     let place = |link: &str| profile.groups.iter().position(|g| g.link == link);
     let mut specs: Vec<LinkSpec> = profile
         .groups
@@ -247,7 +247,7 @@ fn tree_of(profile: &PuppetProfile) -> Vec<LinkSpec> {
 }
 
 /// The joints as a chain, and the groups that follow links.
-fn chain_of(profile: &PuppetProfile, tree: &Figure) -> Result<(Chain, Vec<Group>), ChainError> {
+pub(super) fn chain_of(profile: &PuppetProfile, tree: &Figure) -> Result<(Chain, Vec<Group>), ChainError> {
     let mut joints: Vec<Joint> = Vec::new();
     let mut groups = Vec::new();
     // The last joint of each group; a group without joints passes its parent's on.

@@ -4,6 +4,7 @@
 //! player is ticked by the step itself; in real time it has a thread of its own, which nothing here can hold up.
 
 mod body;
+mod bones;
 mod runner;
 mod view;
 
@@ -18,6 +19,7 @@ use motion::{JointClip, Placed};
 use player::{Order, PlayerConfig, Puppet, PuppetError};
 
 pub use body::{Body, BodyError, Follower, RestFrames};
+use bones::Bones;
 use runner::{Line, Runner};
 
 use crate::command::PuppetCommand;
@@ -81,6 +83,7 @@ pub(crate) struct Seat {
     spec: PuppetSpec,
     clock: Arc<dyn Clock>,
     runner: Runner,
+    bones: Option<Bones>,
     body: Option<Body>,
     follower: Option<Follower>,
     baked: Option<(Arc<Clip>, Arc<JointClip>)>,
@@ -117,6 +120,7 @@ impl Seat {
                 }),
             })
             .collect::<Result<_, _>>()?;
+        let bones = Bones::new(&profile);
         Ok(Self {
             profile,
             puppet,
@@ -124,6 +128,7 @@ impl Seat {
             spec,
             clock,
             runner: Runner::Waiting,
+            bones,
             body: None,
             follower: None,
             baked: None,
@@ -236,12 +241,15 @@ impl Seat {
         std::mem::take(&mut self.remarks)
     }
 
-    pub(crate) fn view(&self, now: Instant) -> PuppetView {
-        let waiting = self.missing();
+    pub(crate) fn view(&mut self, now: Instant) -> PuppetView {
         let mut seen = None;
         self.runner
             .report(&mut |report| seen = Some(view::of(&self.profile, report, now)));
-        seen.unwrap_or_else(|| view::absent(&self.profile, waiting))
+        let mut view = seen.unwrap_or_else(|| view::absent(&self.profile, self.missing()));
+        if let Some(bones) = &mut self.bones {
+            view.draw(bones);
+        }
+        view
     }
 
     /// Stops and lets go. Returns whether torque is known to be off.

@@ -6,6 +6,7 @@ use device::servo::member::error_names;
 use device_profiles::{PuppetJoint, PuppetProfile};
 use player::{JointReport, Report, State};
 
+use super::bones::Bones;
 use crate::snapshot::{JointView, PuppetState, PuppetView};
 
 /// A puppet that has a player.
@@ -31,6 +32,7 @@ pub(super) fn of(profile: &PuppetProfile, report: &Report, now: Instant) -> Pupp
         stale_discarded: report.stale_discarded,
         interventions: report.interventions.total(),
         late_cycles: report.late_ticks,
+        bones: Vec::new(),
         torque: report.torque,
         goals_sent: report.goals_sent,
     }
@@ -51,6 +53,18 @@ pub(super) fn absent(profile: &PuppetProfile, why: String) -> PuppetView {
         fault: Some(why),
         joints,
         ..PuppetView::default()
+    }
+}
+
+impl PuppetView {
+    /// Draws it where it was last measured; where nothing was, at rest.
+    pub(super) fn draw(&mut self, bones: &mut Bones) {
+        let angles_rad: Vec<f64> = self
+            .joints
+            .iter()
+            .map(|joint| joint.measured_rad.unwrap_or(0.0))
+            .collect();
+        self.bones = bones.at(&angles_rad);
     }
 }
 

@@ -42,7 +42,7 @@ impl Rig {
             desk: self
                 .desk
                 .view(self.wiring.panel(), now_secs, self.inputs.simulated_desk()),
-            puppet: self.puppet.as_ref().map(|puppet| puppet.view(self.now)),
+            puppet: self.puppet.as_mut().map(|puppet| puppet.view(self.now)),
             devices: self.inputs.view(),
             undo: self.history.undo_words().map(str::to_owned),
             redo: self.history.redo_words().map(str::to_owned),
