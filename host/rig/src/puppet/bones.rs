@@ -10,7 +10,7 @@ use super::body::{chain_of, tree_of, upright};
 #[derive(Debug)]
 pub(super) struct Bones {
     chain: Chain,
-    bones: Vec<Bone>,
+    lines: Vec<Bone>,
     /// Reused from call to call.
     placed: Vec<Rigid>,
 }
@@ -73,7 +73,7 @@ impl Bones {
             let frame = frame(bone.joint);
             [frame.transform_point(bone.start), frame.transform_point(bone.end)]
         };
-        self.bones.iter().map(line).collect()
+        self.lines.iter().map(line).collect()
     }
 }
 
