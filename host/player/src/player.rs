@@ -166,7 +166,7 @@ impl Player {
         self.report.rejected = None;
         self.report.arming_refused = false;
         let dt = self.note_time(now);
-        self.poll(now);
+        self.take_in(now);
         for order in orders {
             self.obey(order, now);
         }
@@ -177,9 +177,24 @@ impl Player {
         &self.report
     }
 
-    /// Takes in answers between ticks, so that what is left of a period can be used. Never needed, never
-    /// waits.
+    /// Takes in answers between ticks and uses what is left of the period. Never needed, never waits.
     pub fn poll(&mut self, now: Instant) {
+        self.take_in(now);
+        let until = self.ticked.unwrap_or(now).after(self.config.period);
+        for at in 0..self.lines.all.len() {
+            let Some(line) = self.lines.all.get_mut(at) else {
+                continue;
+            };
+            if line.lost {
+                continue;
+            }
+            if let Err(error) = line.bus.use_pause(now, until) {
+                self.lose(at, error.to_string(), now);
+            }
+        }
+    }
+
+    fn take_in(&mut self, now: Instant) {
         let mut events = std::mem::take(&mut self.events);
         for at in 0..self.lines.all.len() {
             let Some(line) = self.lines.all.get_mut(at) else {
@@ -404,3 +419,7 @@ impl Player {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "player_tests.rs"]
+mod tests;

@@ -36,7 +36,6 @@ pub(super) struct Cycle {
     order: Vec<usize>,
     asked_count: usize,
     commanded: Instant,
-    period: Duration,
     health_at: Instant,
     item: Item,
     urgent: bool,
@@ -54,7 +53,6 @@ impl Cycle {
             order: (0..members).collect(),
             asked_count: 0,
             commanded: Instant::ZERO,
-            period: Duration::ZERO,
             health_at: Instant::ZERO,
             item: Item::Errors,
             urgent: false,
@@ -67,7 +65,6 @@ impl Cycle {
     pub(super) fn restart(&mut self, now: Instant) {
         self.asked = None;
         self.commanded = now;
-        self.period = Duration::ZERO;
         self.health_at = now;
         self.urgent = false;
         self.lost.fill([0; 2]);
@@ -109,7 +106,6 @@ impl Bus {
             return Ok(Commanded::Busy);
         }
         self.settle();
-        self.cycle.period = since;
         self.cycle.commanded = now;
         self.counters.cycles += 1;
         self.limit(goal, since.as_secs_f64(), note);
@@ -280,7 +276,6 @@ impl Bus {
         cycle.urgent |= urgent;
         if progress == Progress::Done {
             self.settle_and_tell(emit);
-            self.follow_up(now)?;
         }
         if matches!(self.mode, Mode::Armed) && self.cycle.lost.iter().any(|lost| lost[1] >= CONFIRMATIONS) {
             self.begin_pinning(now)?;
@@ -288,15 +283,16 @@ impl Bus {
         Ok(())
     }
 
-    /// Uses what is left of the period for the next health reading.
-    fn follow_up(&mut self, now: Instant) -> Result<(), BusError> {
+    /// Uses time in which no goals are due, until `until`, for the next health reading. Never waits. Without
+    /// it, health is read instead of positions now and then.
+    pub fn use_pause(&mut self, now: Instant, until: Instant) -> Result<(), BusError> {
+        let idle = matches!(self.mode, Mode::Loose | Mode::Armed) && self.line.deadline().is_none();
         let due = self.cycle.urgent || now.since(self.cycle.health_at) >= self.settings.health_interval;
         let bytes = self.slots.len() + dynamixel2::INSTRUCTION_OVERHEAD_BYTES + 4;
         let takes = self
             .line
             .exchange_time(bytes, self.slots.len(), usize::from(self.table.supply.bytes));
-        let ends = self.cycle.commanded.after(self.cycle.period);
-        if !due || now.after(takes + MARGIN) > ends {
+        if !idle || !due || now.after(takes + MARGIN) > until {
             return Ok(());
         }
         self.line.packet();

@@ -31,6 +31,8 @@ pub(crate) struct Desk {
     pub(crate) waits_for_silent: bool,
     /// Answers come so much later.
     pub(crate) delay: Duration,
+    /// Their positions do not follow goals.
+    pub(crate) stuck: BTreeSet<u8>,
     pub(crate) gone: bool,
     pub(crate) writes: Vec<Write>,
     answers: VecDeque<(Instant, Vec<u8>)>,
@@ -62,7 +64,7 @@ impl Desk {
     fn write(&mut self, id: u8, address: usize, bytes: &[u8]) {
         self.writes.push((id, address, bytes.to_vec()));
         self.set(id, address, bytes);
-        if self.get(id, TORQUE, 1) == 1 && self.get(id, WATCHDOG, 1) != 0xff {
+        if !self.stuck.contains(&id) && self.get(id, TORQUE, 1) == 1 && self.get(id, WATCHDOG, 1) != 0xff {
             let goal = self.servos[&id][GOAL..GOAL + 4].to_vec();
             self.set(id, POSITION, &goal);
         }
@@ -149,6 +151,7 @@ impl Responder {
             silent: BTreeSet::new(),
             waits_for_silent: true,
             delay: Duration::ZERO,
+            stuck: BTreeSet::new(),
             gone: false,
             writes: Vec::new(),
             answers: VecDeque::new(),
