@@ -55,7 +55,7 @@ impl Bones {
         }
         Some(Self {
             chain,
-            bones,
+            lines: bones,
             placed: Vec::new(),
         })
     }
