@@ -148,7 +148,7 @@ fn extremities(figure: &FigureView) -> impl Iterator<Item = (usize, &motion::fig
 }
 
 /// Lines of the floor's grid on each side of the middle.
-const FLOOR_LINES: i32 = 5;
+const FLOOR_LINES: i32 = 7;
 
 fn add_floor(scene: &mut Scene, height: f64) {
     let step = nice_step(scene.camera.half_height / 3.0);

@@ -134,7 +134,7 @@ fn the_help_page_and_sharper_screens() {
 }
 
 /// Changes only on purpose: look at `frame.png` and `poses.png` before you write new numbers here.
-const FRAME_HASH: u64 = 0x6cec_239d_e1a5_fce7;
+const FRAME_HASH: u64 = 0x2532_dfc6_273e_3709;
 const SHEET_HASH: u64 = 0xb5ae_07a9_6e5c_39f0;
 
 #[test]
