@@ -19,7 +19,6 @@ fn two_keys_are_entered_and_performed() {
     })
     .expect("the story is told");
     let report = &demo.report;
-    eprintln!("{}", serde_json::to_string_pretty(report).expect("plain data"));
     assert_eq!((stored, report.keys_entered), (2, 2));
     assert!(report.journal_replay_identical);
     assert_eq!(report.stale_reads, 0);

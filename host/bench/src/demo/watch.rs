@@ -91,7 +91,9 @@ impl Watch {
         let Some(wire) = self.wires.get(&truth.bus).filter(|_| measured_us > before_us + ROUNDING_US) else {
             return;
         };
-        let asked = wire.writes_us.iter().rev().find(|&&at_us| at_us <= measured_us + ROUNDING_US);
+        // What is written in this very step was not yet asked when its readings were taken in.
+        let until_us = (measured_us + ROUNDING_US).min(now.as_micros().saturating_sub(1));
+        let asked = wire.writes_us.iter().rev().find(|&&at_us| at_us <= until_us);
         let asked_us = asked.copied().unwrap_or(0);
         let fresh = wire.answers.iter().any(|answer| {
             answer.id == truth.id
