@@ -141,15 +141,17 @@ impl Console {
     /// Shows warnings about files; not with `--quiet`.
     pub(crate) fn warn(&self, warnings: &[FileError]) {
         if !self.showing.quiet {
-            warnings
-                .iter()
-                .for_each(|warning| self.file(Weight::Warning, warning));
+            for warning in warnings {
+                self.file(Weight::Warning, warning);
+            }
         }
     }
 
     /// Shows errors in files.
     pub(crate) fn errors(&self, errors: &[FileError]) {
-        errors.iter().for_each(|error| self.file(Weight::Error, error));
+        for error in errors {
+            self.file(Weight::Error, error);
+        }
     }
 
     /// A bar for long work, on a terminal that results are not written to as well.

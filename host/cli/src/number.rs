@@ -27,21 +27,21 @@ pub(crate) fn secs(text: &str) -> Result<f64, String> {
 
 /// A number as people read it: six significant digits at most, no noise behind them.
 pub(crate) fn short(value: f64) -> String {
+    significant(value, 6)
+}
+
+/// A number with at most so many significant digits, no zeros behind them.
+pub(crate) fn significant(value: f64, digits: i32) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let digits = 5 - value.abs().log10().floor() as i32;
-    if !(0..=12).contains(&digits) {
-        return format!("{value:.5e}");
+    let decimals = digits - 1 - value.abs().log10().floor() as i32;
+    if !(0..=digits + 6).contains(&decimals) {
+        return format!("{value:.*e}", digits.max(1) as usize - 1);
     }
-    let text = format!("{value:.*}", digits as usize);
+    let text = format!("{value:.*}", decimals as usize);
     if text.contains('.') {
-        let text = text.trim_end_matches('0').trim_end_matches('.');
-        if text == "-0" {
-            "0".to_owned()
-        } else {
-            text.to_owned()
-        }
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         text
     }

@@ -69,6 +69,31 @@ fn curves_are_fitted_and_sampled() {
 }
 
 #[test]
+fn curves_are_measured() {
+    check(
+        &[("line.csv", b"0,0\n3,4\n6,8\n")],
+        &[
+            call("curve length line.csv", 0, &["10\n"], &[]),
+            call(
+                "curve length line.csv --from 2.5 --to 99 --json",
+                0,
+                &[r#"{"from":2.5,"to":10.0,"length":7.5"#],
+                &[],
+            ),
+            fed("curve length -", "1\n", 0, &["0\n"], &[]),
+            fed("curve length - --order 3", "0,0 0\n", 1, &[], &["-:1:3: error: "]),
+            fed(
+                "curve length - --order 3",
+                "0,0\n1,0\n2,4\n",
+                0,
+                &["4.6467837624\n"],
+                &[],
+            ),
+        ],
+    );
+}
+
+#[test]
 fn points_that_make_no_curve_are_refused_with_their_place() {
     check(
         &[

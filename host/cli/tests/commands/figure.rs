@@ -58,8 +58,6 @@ fn what_is_wrong_is_said_with_its_place() {
             ("words.str", b"x\n0 a two 1\n    1 0 zero 0\n"),
             ("noise.str", b"x\n0 \xff\xfe 2 1\n"),
             ("empty.str", b""),
-            ("bad.shp", b"upper := SCALE BY ;\n"),
-            ("half.shp", b"upper := SCALE BY 2 THEN line;\n"),
             ("folder/inside", b""),
         ],
         &[
@@ -105,6 +103,19 @@ fn what_is_wrong_is_said_with_its_place() {
             call("figure empty.str", 1, &[], &["empty.str:1:1: error: "]),
             fed("figure -", "", 1, &[], &["-:1:1: error: "]),
             fed("figure - --json", "x\n0 a 2 1\n", 0, &[r#""name":"a""#], &[]),
+        ],
+    );
+}
+
+#[test]
+fn shapes_are_held_against_links() {
+    check(
+        &[
+            ("arm.str", ARM),
+            ("bad.shp", b"upper := SCALE BY ;\n"),
+            ("half.shp", b"upper := SCALE BY 2 THEN line;\n"),
+        ],
+        &[
             call(
                 "figure arm.str --shp bad.shp",
                 1,

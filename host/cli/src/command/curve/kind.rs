@@ -1,7 +1,7 @@
 //! One curve of either kind over points of any dimension.
 
 use glam::{DVec2, DVec3};
-use motion::curve::ChordLength;
+use motion::curve::{ChordLength, arc_length};
 use motion::{BSpline, Blend, Curve, Interval, Natural, Smooth};
 use rig::document::FileError;
 use rig::document::source::Source;
@@ -64,6 +64,14 @@ impl<P: Point> AnyCurve<P> {
         match self {
             Self::Natural(curve) => curve.domain(),
             Self::BSpline(curve) => curve.domain(),
+        }
+    }
+
+    /// How long the curve is over a range of its parameter.
+    pub(super) fn length(&self, over: Interval) -> f64 {
+        match self {
+            Self::Natural(curve) => arc_length(curve, &curve.knots(), over),
+            Self::BSpline(curve) => arc_length(curve, curve.knots(), over),
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod fit;
 mod kind;
+mod length;
 mod points;
 mod sample;
 
@@ -18,7 +19,7 @@ Examples:
   dialrig curve fit points.csv --order 4 --json | dialrig curve sample - --count 20
   printf '0,0\\n1,2\\n3,1\\n' | dialrig curve sample - --count 5";
 
-/// Fits curves to points and samples them. Without `--order`, the natural cubic that passes through the
+/// Fits curves to points, samples and measures them. Without `--order`, the natural cubic that passes through the
 /// points over chord length; with it, the uniform B-spline of that order with the points as control points.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -33,6 +34,8 @@ enum Command {
     Fit(fit::Args),
     /// Points along the curve
     Sample(sample::Args),
+    /// How long the curve is
+    Length(length::Args),
 }
 
 /// Which curve.
@@ -51,5 +54,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     match &args.command {
         Command::Fit(args) => fit::run(args, console),
         Command::Sample(args) => sample::run(args, console),
+        Command::Length(args) => length::run(args, console),
     }
 }

@@ -136,7 +136,9 @@ pub(super) fn execute(
             definition: Definition::Function { .. },
         } => watch(machine, watches, Some(name)),
         Command::Variable(names) => {
-            names.iter().for_each(|name| watch(machine, watches, Some(name)));
+            for name in names {
+                watch(machine, watches, Some(name));
+            }
         }
         _ => {}
     }
