@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::keyboard::SHORTCUTS;
+use super::shortcuts::SHORTCUTS;
 use super::style::{self, ink};
 use crate::render::theme;
 

@@ -1,6 +1,6 @@
 //! The window's panels: each reads the snapshot, draws, and pushes commands.
 //!
-//! [`layout`] says where each panel is, [`style`] how things look, [`keyboard`] what keys mean; then one
+//! [`layout`] says where each panel is, [`style`] how things look, [`shortcuts`] what keys mean; then one
 //! file a panel. What a panel keeps for itself is what a restart may lose.
 
 pub mod button;
@@ -17,8 +17,10 @@ pub mod keys;
 pub mod kinetics;
 pub mod layout;
 pub mod puppet;
+pub mod shortcuts;
 pub mod style;
 pub mod transport;
+pub mod transport_buttons;
 pub mod view;
 
 pub use choices::Choices;

@@ -2,14 +2,14 @@
 
 use egui::accesskit::Role;
 use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
-use rig::{Command, EditCommand, KineticsMode, Snapshot, TransportCommand};
+use rig::{Command, EditCommand, Snapshot, TransportCommand};
 
-use super::button::{self, Button, Icon, Tone};
+use super::button;
 use super::keys::paint_diamond;
 use super::style::{self, ink};
-use super::{Commands, Panel, kinetics, layout};
+use super::{Commands, Panel, kinetics, layout, transport_buttons};
 use crate::render::theme;
-use crate::render::timeline::{Timeline, clock_text};
+use crate::render::timeline::Timeline;
 
 /// The transport.
 #[derive(Default)]
@@ -45,7 +45,7 @@ impl Panel for Transport {
             pos2(area.left(), buttons.bottom() + theme::GAP),
             pos2(area.right(), track.top()),
         );
-        button_row(ui, buttons, seen, commands);
+        transport_buttons::show(ui, buttons, seen, commands);
         // Room at both ends, so that the first and last diamond are whole.
         let line = Timeline::new(
             seen.transport.start_secs,
@@ -162,203 +162,6 @@ pub fn between_neighbours(seen: &Snapshot, key: usize, secs: f64) -> f64 {
         .get(key + 1)
         .map_or(f64::INFINITY, |k| k.secs - APART_SECS);
     secs.min(high).max(low)
-}
-
-/// Icon, name, what it does, its key, how it looks, width, and what it asks for.
-type Order = (
-    Icon,
-    &'static str,
-    &'static str,
-    &'static str,
-    Tone,
-    f32,
-    TransportCommand,
-);
-
-fn orders(seen: &Snapshot) -> [Order; 6] {
-    let transport = &seen.transport;
-    let seek = |secs| TransportCommand::Seek { secs };
-    let (icon, tone) = if transport.playing {
-        (Icon::Pause, Tone::Live)
-    } else {
-        (Icon::Play, Tone::Plain)
-    };
-    let again = if transport.looped { Tone::On } else { Tone::Off };
-    let to_start = seek(transport.start_secs);
-    let to_end = seek(transport.end_secs);
-    let back = TransportCommand::Key(-1);
-    [
-        (
-            Icon::Start,
-            "start",
-            "Goes to the first key.",
-            "Home",
-            Tone::Plain,
-            32.0,
-            to_start,
-        ),
-        (
-            Icon::Previous,
-            "previous key",
-            "Goes to the key before.",
-            "Up",
-            Tone::Plain,
-            32.0,
-            back,
-        ),
-        (
-            icon,
-            "play",
-            "Plays on screen, or pauses.",
-            "Space",
-            tone,
-            56.0,
-            TransportCommand::Toggle,
-        ),
-        (
-            Icon::Next,
-            "next key",
-            "Goes to the next key.",
-            "Down",
-            Tone::Plain,
-            32.0,
-            TransportCommand::Key(1),
-        ),
-        (
-            Icon::End,
-            "end",
-            "Goes to the last key.",
-            "End",
-            Tone::Plain,
-            32.0,
-            to_end,
-        ),
-        (
-            Icon::Loop,
-            "loop",
-            "Starts over at the end.",
-            "L",
-            again,
-            32.0,
-            TransportCommand::ToggleLoop,
-        ),
-    ]
-}
-
-fn button_row(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
-    let mut left = row.left();
-    for (icon, name, tip, keys, tone, width, order) in orders(seen) {
-        let rect = Rect::from_min_size(pos2(left, row.top()), vec2(width, row.height()));
-        if Button::icon(icon, name, tip, keys)
-            .tone(tone)
-            .show(ui, rect)
-            .clicked()
-        {
-            commands.push(Command::Transport(order));
-        }
-        left += width + theme::STEP;
-    }
-    readout(ui, pos2(left + theme::MARGIN, row.center().y), seen);
-    right_side(ui, row, seen, commands);
-}
-
-/// The time, large, with the clip's length beside it in the same digits.
-fn readout(ui: &Ui, at: egui::Pos2, seen: &Snapshot) {
-    let now = clock_text(seen.transport.secs);
-    let colour = if seen.transport.playing {
-        theme::LIVE
-    } else {
-        theme::TEXT
-    };
-    // As many places as the clip's length needs: the number grows to the left and its neighbours stay.
-    let font = style::digits(theme::SIZE_READOUT);
-    let places = clock_text(seen.transport.end_secs).len().max(now.len()) as f32;
-    let right = at + vec2((places * theme::SIZE_READOUT * 0.61).ceil(), 0.0);
-    ui.painter()
-        .text(right, Align2::RIGHT_CENTER, now, font, ink(colour));
-    let length = format!("/ {} s", clock_text(seen.transport.end_secs));
-    let font = style::digits(theme::SIZE_BODY);
-    ui.painter().text(
-        right + vec2(theme::GAP, 2.0),
-        Align2::LEFT_CENTER,
-        length,
-        font,
-        ink(theme::DIM),
-    );
-}
-
-/// Speeds that the buttons step through.
-const SPEEDS: [f64; 7] = [0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 4.0];
-
-/// The next speed upwards or downwards.
-pub fn stepped_speed(now: f64, up: bool) -> f64 {
-    let found = if up {
-        SPEEDS.into_iter().find(|s| *s > now + 1e-9)
-    } else {
-        SPEEDS.into_iter().rev().find(|s| *s < now - 1e-9)
-    };
-    found.unwrap_or(now)
-}
-
-/// From the right edge: how keys become timing; then the speed.
-fn right_side(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
-    let mut right = row.right();
-    let mut cell = |width: f32, gap: f32| {
-        let rect = Rect::from_min_size(pos2(right - width, row.top()), vec2(width, row.height()));
-        right -= width + gap;
-        rect
-    };
-    let edited = Button::new(
-        "Reset",
-        "Takes back all adjustments of the kinetic curve.",
-        "Shift-M",
-    )
-    .named("reset kinetics");
-    if edited.show(ui, cell(52.0, theme::GAP)).clicked() {
-        commands.push(Command::Edit(EditCommand::ResetKinetics));
-    }
-    let modes = [
-        (
-            "Linear",
-            "linear",
-            "Straight from key to key.",
-            KineticsMode::Linear,
-        ),
-        (
-            "Monotone",
-            "monotone",
-            "Smooth, and never runs backwards.",
-            KineticsMode::Monotone,
-        ),
-        (
-            "Natural",
-            "natural",
-            "The smoothest; may swing back between keys.",
-            KineticsMode::Natural,
-        ),
-    ];
-    for (text, name, tip, mode) in modes {
-        let button = Button::new(text, tip, "M: the next one").switch(seen.kinetics.mode == name);
-        if button.show(ui, cell(72.0, theme::STEP)).clicked() {
-            commands.push(Command::Edit(EditCommand::KineticsMode(mode)));
-        }
-    }
-    let _ = cell(theme::MARGIN, 0.0);
-    let up = Button::new("+", "Plays faster.", "=").named("faster");
-    if up.show(ui, cell(24.0, 0.0)).clicked() {
-        let speed = stepped_speed(seen.transport.speed, true);
-        commands.push(Command::Transport(TransportCommand::Speed(speed)));
-    }
-    let speed = cell(56.0, 0.0);
-    let text = format!("{:.2}×", seen.transport.speed);
-    let font = style::digits(theme::SIZE_BODY);
-    ui.painter()
-        .text(speed.center(), Align2::CENTER_CENTER, text, font, ink(theme::DIM));
-    let down = Button::new("-", "Plays slower.", "-").named("slower");
-    if down.show(ui, cell(24.0, 0.0)).clicked() {
-        let speed = stepped_speed(seen.transport.speed, false);
-        commands.push(Command::Transport(TransportCommand::Speed(speed)));
-    }
 }
 
 fn paint_ruler(ui: &Ui, area: Rect, ground: Rect, line: &Timeline) {

@@ -1,0 +1,217 @@
+//! The table of keys: what is done, what tooltips say, what the help page lists, in one place.
+
+use egui::{Key, Modifiers};
+
+/// One press turns the view by this much, radians: five degrees.
+const VIEW_RAD: f64 = 0.087_266_462_599_716_47;
+/// One press moves a coefficient by this much, keys.
+const COEFFICIENT_KEYS: f64 = 0.05;
+/// One press moves the posing cursor by this much, half-heights of the view.
+const CURSOR_STEP: f64 = 0.02;
+
+/// What a key does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Act {
+    /// Order to the transport.
+    Toggle,
+    /// Moves time by frames.
+    Frames(i32),
+    /// To the first (−1) or last (1) key.
+    Ends(i32),
+    /// To the next or previous key.
+    Key(i32),
+    /// Moves the selected key by frames.
+    MoveKey(i32),
+    /// Loop on or off.
+    Loop,
+    /// Faster or slower.
+    Speed(bool),
+    /// Stores a key.
+    Store,
+    /// Copies a key.
+    Copy,
+    /// Deletes a key.
+    Delete,
+    /// Chooses the next kind of kinetic curve.
+    Mode,
+    /// Takes kinetic adjustments back.
+    ResetKinetics,
+    /// Chooses another coefficient.
+    Coefficient(i32),
+    /// Moves the chosen coefficient.
+    Bend(f64),
+    /// Undo.
+    Undo,
+    /// Redo.
+    Redo,
+    /// Save.
+    Save,
+    /// Chooses the next or previous link.
+    Link(i32),
+    /// Turns the selected link about its axis, sixteenths of a half turn.
+    Twist(f64),
+    /// Fixes the selected link.
+    Place,
+    /// The other of the two solutions.
+    OtherSide,
+    /// Takes the clip's pose.
+    FromClip,
+    /// Moves the posing cursor.
+    Cursor(f64, f64),
+    /// Turns the chosen dial, in presses.
+    Dial(f64),
+    /// Turns the view.
+    Turn(f64, f64),
+    /// Zooms.
+    Zoom(f64),
+    /// The whole figure.
+    Fit,
+    /// Onion skin on or off.
+    Onion,
+    /// Ticks on or off.
+    Ticks,
+    /// Floor on or off.
+    Floor,
+    /// Puppet: turn torque on.
+    Arm,
+    /// Puppet: play.
+    PuppetPlay,
+    /// Puppet: follow.
+    Follow,
+    /// Puppet: hold.
+    Hold,
+    /// Puppet: release.
+    Release,
+    /// Puppet: leave the faulted state.
+    Reset,
+    /// The help page.
+    Help,
+}
+
+/// One row of the table.
+pub struct Shortcut {
+    /// Modifiers that must be held, and no others.
+    pub modifiers: Modifiers,
+    /// The key.
+    pub key: Key,
+    /// What it does.
+    pub act: Act,
+    /// Group on the help page.
+    pub group: &'static str,
+    /// The keys in words; empty: the row above speaks for this one too.
+    pub keys: &'static str,
+    /// What it does in words.
+    pub does: &'static str,
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const CTRL: Modifiers = Modifiers::COMMAND;
+const ALT: Modifiers = Modifiers::ALT;
+const CTRL_SHIFT: Modifiers = Modifiers {
+    shift: true,
+    ..Modifiers::COMMAND
+};
+const ALT_SHIFT: Modifiers = Modifiers {
+    shift: true,
+    ..Modifiers::ALT
+};
+
+const fn row(
+    (modifiers, key): (Modifiers, Key),
+    act: Act,
+    group: &'static str,
+    keys: &'static str,
+    does: &'static str,
+) -> Shortcut {
+    Shortcut {
+        modifiers,
+        key,
+        act,
+        group,
+        keys,
+        does,
+    }
+}
+
+/// Every key but Esc, the digits and F1–F12. Rows with more modifiers come before rows with fewer.
+#[rustfmt::skip] // A table: one row a line.
+pub const SHORTCUTS: &[Shortcut] = &[
+    row((NONE, Key::Space), Act::Toggle, "time", "Space", "play, pause"),
+    row((SHIFT, Key::ArrowLeft), Act::Frames(-10), "time", "Shift-Left, -Right", "ten frames"),
+    row((SHIFT, Key::ArrowRight), Act::Frames(10), "time", "", ""),
+    row((CTRL, Key::ArrowLeft), Act::MoveKey(-1), "keys", "Ctrl-Left, -Right", "move the key a frame"),
+    row((CTRL, Key::ArrowRight), Act::MoveKey(1), "keys", "", ""),
+    row((ALT_SHIFT, Key::ArrowLeft), Act::Cursor(-CURSOR_STEP, 0.0), "pose", "Alt-Shift-arrows", "move the cursor"),
+    row((ALT_SHIFT, Key::ArrowRight), Act::Cursor(CURSOR_STEP, 0.0), "pose", "", ""),
+    row((ALT_SHIFT, Key::ArrowUp), Act::Cursor(0.0, CURSOR_STEP), "pose", "", ""),
+    row((ALT_SHIFT, Key::ArrowDown), Act::Cursor(0.0, -CURSOR_STEP), "pose", "", ""),
+    row((ALT, Key::ArrowLeft), Act::Coefficient(-1), "kinetics", "Alt-Left, -Right", "choose a coefficient"),
+    row((ALT, Key::ArrowRight), Act::Coefficient(1), "kinetics", "", ""),
+    row((ALT, Key::ArrowUp), Act::Bend(COEFFICIENT_KEYS), "kinetics", "Alt-Up, -Down", "earlier, later there"),
+    row((ALT, Key::ArrowDown), Act::Bend(-COEFFICIENT_KEYS), "kinetics", "", ""),
+    row((NONE, Key::ArrowLeft), Act::Frames(-1), "time", "Left, Right", "one frame"),
+    row((NONE, Key::ArrowRight), Act::Frames(1), "time", "", ""),
+    row((NONE, Key::Home), Act::Ends(-1), "time", "Home, End", "first, last key"),
+    row((NONE, Key::End), Act::Ends(1), "time", "", ""),
+    row((NONE, Key::ArrowUp), Act::Key(-1), "time", "Up, Down", "previous, next key"),
+    row((NONE, Key::ArrowDown), Act::Key(1), "time", "", ""),
+    row((NONE, Key::L), Act::Loop, "time", "L", "loop"),
+    row((NONE, Key::Minus), Act::Speed(false), "time", "- =", "slower, faster"),
+    row((NONE, Key::Equals), Act::Speed(true), "time", "", ""),
+    row((NONE, Key::K), Act::Store, "keys", "K", "store the pose as a key"),
+    row((NONE, Key::C), Act::Copy, "keys", "C", "copy the last key here"),
+    row((NONE, Key::Delete), Act::Delete, "keys", "Delete", "delete the selected key"),
+    row((SHIFT, Key::M), Act::ResetKinetics, "kinetics", "Shift-M", "take adjustments back"),
+    row((NONE, Key::M), Act::Mode, "kinetics", "M", "natural, monotone, linear"),
+    row((CTRL_SHIFT, Key::Z), Act::Redo, "show", "Ctrl-Shift-Z", "redo"),
+    row((CTRL, Key::Z), Act::Undo, "show", "Ctrl-Z", "undo"),
+    row((CTRL, Key::S), Act::Save, "show", "Ctrl-S", "save"),
+    row((SHIFT, Key::Comma), Act::Twist(-1.0), "pose", "Shift-, Shift-.", "twist the link"),
+    row((SHIFT, Key::Period), Act::Twist(1.0), "pose", "", ""),
+    row((NONE, Key::Comma), Act::Link(-1), "pose", ", .", "previous, next link"),
+    row((NONE, Key::Period), Act::Link(1), "pose", "", ""),
+    row((NONE, Key::Enter), Act::Place, "pose", "Enter", "fix the link, go to the next"),
+    row((NONE, Key::N), Act::OtherSide, "pose", "N", "near or far"),
+    row((NONE, Key::B), Act::FromClip, "pose", "B", "back to the clip's pose"),
+    row((SHIFT, Key::OpenBracket), Act::Dial(-10.0), "desk", "[ ] with Shift", "turn the chosen dial"),
+    row((SHIFT, Key::CloseBracket), Act::Dial(10.0), "desk", "", ""),
+    row((NONE, Key::OpenBracket), Act::Dial(-1.0), "desk", "", ""),
+    row((NONE, Key::CloseBracket), Act::Dial(1.0), "desk", "", ""),
+    row((NONE, Key::Q), Act::Turn(-VIEW_RAD, 0.0), "view", "Q E", "turn the view"),
+    row((NONE, Key::E), Act::Turn(VIEW_RAD, 0.0), "view", "", ""),
+    row((NONE, Key::W), Act::Turn(0.0, VIEW_RAD), "view", "W S", "tilt the view"),
+    row((NONE, Key::S), Act::Turn(0.0, -VIEW_RAD), "view", "", ""),
+    row((NONE, Key::PageUp), Act::Zoom(1.25), "view", "PgUp, PgDn", "zoom"),
+    row((NONE, Key::PageDown), Act::Zoom(0.8), "view", "", ""),
+    row((NONE, Key::V), Act::Fit, "view", "V", "the whole figure"),
+    row((NONE, Key::O), Act::Onion, "view", "O T G", "onion skin, ticks, floor"),
+    row((NONE, Key::T), Act::Ticks, "view", "", ""),
+    row((NONE, Key::G), Act::Floor, "view", "", ""),
+    row((CTRL, Key::R), Act::Reset, "puppet", "Ctrl-R", "reset after a fault"),
+    row((NONE, Key::A), Act::Arm, "puppet", "A", "arm"),
+    row((NONE, Key::P), Act::PuppetPlay, "puppet", "P", "play the clip"),
+    row((NONE, Key::F), Act::Follow, "puppet", "F", "follow the screen"),
+    row((NONE, Key::H), Act::Hold, "puppet", "H", "hold"),
+    row((NONE, Key::R), Act::Release, "puppet", "R", "release"),
+    row((SHIFT, Key::Questionmark), Act::Help, "show", "?", "this page"),
+    row((NONE, Key::Questionmark), Act::Help, "show", "", ""),
+    row((SHIFT, Key::Slash), Act::Help, "show", "", ""),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_means_two_things() {
+        for (index, a) in SHORTCUTS.iter().enumerate() {
+            for b in &SHORTCUTS[index + 1..] {
+                assert!((a.modifiers, a.key) != (b.modifiers, b.key), "{:?} twice", a.key);
+                // `consume_key` lets Shift through where a row does not ask for it.
+                let hidden = a.key == b.key && a.modifiers == NONE && b.modifiers.shift;
+                assert!(!hidden, "{:?} with Shift is never reached", b.key);
+            }
+        }
+    }
+}
