@@ -20,6 +20,7 @@ pub mod parameters;
 mod ports;
 pub mod puppet;
 mod rig;
+pub mod shipped;
 pub mod snapshot;
 mod stage;
 mod system;
@@ -31,6 +32,7 @@ pub use command::{
     Command, EditCommand, KineticsMode, PoseCommand, PuppetCommand, Side, Touch, TransportCommand,
     ViewCommand,
 };
+pub use device_profiles::Profiles;
 pub use inputs::{InputError, InputSpec};
 pub use live::{Live, LiveError};
 pub use ports::{Found, Ports, TouchError};

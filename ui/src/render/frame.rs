@@ -43,7 +43,7 @@ fn view(scene: &Scene, width: u32, height: u32, scale: f32, name: &str) -> Pictu
     canvas.finish()
 }
 
-fn time_strip(seen: &Snapshot, width: u32, height: u32, scale: f32) -> Picture {
+pub(super) fn time_strip(seen: &Snapshot, width: u32, height: u32, scale: f32) -> Picture {
     let mut canvas = Canvas::new(width, height);
     let (wide, high) = (width as f32, height as f32);
     canvas.rectangle([0.0, 0.0], [wide, high], theme::PANEL);

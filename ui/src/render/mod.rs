@@ -1,7 +1,7 @@
 //! Pictures of the rig, with or without a window.
 //!
 //! [`stage`] makes a [`scene`] of a snapshot; [`flat`] projects it; [`raster`] paints it on the processor,
-//! [`lines`] on a graphics card. [`frame`] and [`sheet`] compose pictures, [`film`] writes them. Nothing
+//! [`lines`] on a graphics card. [`frame`], [`story`] and [`sheet`] compose pictures, [`film`] writes them. Nothing
 //! here knows egui.
 
 pub mod camera;
@@ -17,6 +17,7 @@ pub mod raster;
 pub mod scene;
 pub mod sheet;
 pub mod stage;
+pub mod story;
 pub mod structures;
 pub mod text;
 pub mod theme;
