@@ -151,6 +151,7 @@ impl Lines {
         let supply = line.bus.supply(seat.member).unwrap_or_default();
         JointReport {
             goal_rad: line.bus.goal_rad(seat.member),
+            goal_at: line.bus.goals_at(),
             measured_rad: reading.map(|reading| reading.position_rad),
             measured_at: reading.map(|reading| reading.at),
             velocity_rad_per_s: reading.map_or(0.0, |reading| reading.velocity_rad_per_s),

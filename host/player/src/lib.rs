@@ -20,6 +20,7 @@
 mod approach;
 mod config;
 mod fault;
+mod hear;
 mod joints;
 mod obey;
 mod order;

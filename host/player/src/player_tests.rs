@@ -365,6 +365,24 @@ fn late_ticks_in_a_row_are_a_fault_and_a_single_pause_is_not() {
 }
 
 #[test]
+fn servos_pinned_between_ticks_are_approached_again() {
+    let mut bench = Bench::holding();
+    bench.tick(vec![Bench::play(-1.0, 1.0, true)]);
+    for _ in 0..150 {
+        bench.tick(vec![]);
+    }
+    assert_eq!(bench.player.report().phase, Phase::Running);
+    bench.clock.advance(Duration::from_millis(250));
+    bench.tick(vec![]);
+    for _ in 0..200 {
+        bench.player.poll(bench.clock.now());
+        bench.clock.advance(Duration::from_micros(500));
+    }
+    assert!(bench.player.lines.all_armed(), "pinned before the next tick");
+    assert_eq!(bench.tick(vec![]).phase, Phase::Approaching);
+}
+
+#[test]
 fn a_lost_line_is_reconnected_and_armed_from_where_the_joints_are() {
     let mut bench = Bench::holding();
     bench.far[1].desk().gone = true;

@@ -68,6 +68,9 @@ impl Interventions {
 pub struct JointReport {
     /// The limited goal before it is rounded to counts; none without torque.
     pub goal_rad: Option<f64>,
+    /// When that goal was sent. Speeds and accelerations by differences are only meaningful between goals
+    /// that were.
+    pub goal_at: Option<Instant>,
     /// The last fresh measurement; none before the first.
     pub measured_rad: Option<f64>,
     /// When that was measured.
@@ -99,8 +102,7 @@ pub struct Report {
     pub phase: Phase,
     /// The clip's time, while one is loaded.
     pub clip_secs: Option<f64>,
-    /// Whether goals went out on every bus in this tick. Rates of change are only meaningful between ticks
-    /// that did.
+    /// Whether goals went out on every bus in this tick.
     pub goals_sent: bool,
     /// Whether any bus may have torque.
     pub torque: bool,

@@ -205,6 +205,12 @@ impl Bus {
         Some(self.slots.get(member)?.limiter.as_ref()?.position_rad())
     }
 
+    /// When goals were last sent, or pinned; none while not armed. Differences of goals mean something only
+    /// between such moments.
+    pub fn goals_at(&self) -> Option<Instant> {
+        matches!(self.mode, Mode::Armed).then_some(self.cycle.commanded())
+    }
+
     /// Whether every goal stands.
     pub fn is_still(&self) -> bool {
         self.slots

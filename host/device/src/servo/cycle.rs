@@ -62,6 +62,10 @@ impl Cycle {
         }
     }
 
+    pub(super) fn commanded(&self) -> Instant {
+        self.commanded
+    }
+
     pub(super) fn restart(&mut self, now: Instant) {
         self.asked = None;
         self.commanded = now;
