@@ -28,7 +28,7 @@ pub enum Commanded {
     /// Answers are still on the wire: nothing was sent, and the goals did not move.
     Busy,
     /// The pause was so long that the servos' watchdogs have stopped them: they are measured and pinned
-    /// again, and goals are taken when [`Bus::armed`] says so.
+    /// again, and goals are taken when [`super::Bus::armed`] says so.
     Lapsed,
 }
 
@@ -61,9 +61,9 @@ pub enum Presence {
 pub enum BusEvent {
     /// All members are pinned and have torque.
     Armed,
-    /// See [`Bus::refusals`]; torque is being switched off.
+    /// See [`super::Bus::refusals`]; torque is being switched off.
     ArmingRefused,
-    /// Torque is off, as far as members answer; see [`Bus::refusals`] for any that keep it.
+    /// Torque is off, as far as members answer; see [`super::Bus::refusals`] for any that keep it.
     Released,
     /// A servo counts as absent now.
     Silent {
