@@ -8,7 +8,7 @@ use super::style::{self, ink};
 use crate::render::theme;
 
 /// Heights of a row, points: what is read comfortably, and what still reads.
-const ROW: [f32; 2] = [12.0, 18.0];
+const ROW: [f32; 2] = [11.5, 18.0];
 /// Width of the number, points: seven digits.
 const NUMBER: f32 = 50.0;
 
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, area: Rect, joints: &[JointView]) {
 
 fn show_joint(ui: &Ui, rect: Rect, joint: &JointView) {
     let middle = rect.center().y.round();
-    let name_width = (rect.width() * 0.36).round();
+    let name_width = (rect.width() * 0.43).round();
     let bar = Rect::from_min_max(
         pos2(rect.left() + name_width, rect.top()),
         pos2(rect.right() - NUMBER, rect.bottom()),

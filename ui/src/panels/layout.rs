@@ -15,8 +15,8 @@ const DESK: f32 = 128.0;
 const TRANSPORT: f32 = 148.0;
 /// Heights in the column, points.
 const HEADER: f32 = 36.0;
-const KEYS: f32 = 148.0;
-const DEVICES: f32 = 88.0;
+const KEYS: f32 = 144.0;
+const DEVICES: f32 = 84.0;
 
 /// The rectangles of all panels; they fill the window and do not overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]

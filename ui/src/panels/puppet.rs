@@ -14,7 +14,7 @@ use crate::render::timeline::clock_text;
 pub struct Puppet;
 
 /// Height of STOP, points: the largest button there is.
-const STOP: f32 = 40.0;
+const STOP: f32 = 38.0;
 /// Height of what a fault or the player has to say, points; kept free so that nothing jumps.
 const REMARK: f32 = 30.0;
 

@@ -186,8 +186,8 @@ fn cell(
     }
     let mut style = Style::present(None);
     if moment.key.is_none() {
-        style.ink = style.ink.faded(0.75);
-        style.width = theme::WIDTH_GHOST * 1.3;
+        style.ink = style.ink.faded(0.8);
+        style.width = theme::WIDTH_GHOST * 1.5;
     }
     figure::add(&mut scene, pose, shapes, style);
     let (width, height) = (layout.cell_width, layout.cell_height);

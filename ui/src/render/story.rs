@@ -31,21 +31,44 @@ pub fn draw(seen: &Snapshot, look: &Look, caption: &str, width: u32, height: u32
     let mut picture = Canvas::new(width, height).finish();
     let scale = (picture.height as f32 / HEIGHT_OF_ONE).max(0.5);
     let points = |points: f32| (points * scale).round() as u32;
-    let middle = picture.height.saturating_sub(points(CAPTION) + points(TIME) + points(DESK)).max(1);
+    let middle = picture
+        .height
+        .saturating_sub(points(CAPTION) + points(TIME) + points(DESK))
+        .max(1);
     let widths = SHARES.map(|share| (picture.width as f32 * share).round() as u32);
     let scene = stage::scene(seen, look);
     let mut x = 0;
-    let views = [(scene.clone(), "figure"), (scene.side(), "side"), (puppet(seen.puppet.as_ref()), "puppet, measured")];
+    let views = [
+        (scene.clone(), "figure"),
+        (scene.side(), "side"),
+        (puppet(seen.puppet.as_ref()), "puppet, measured"),
+    ];
     for ((scene, name), width) in views.into_iter().zip(widths) {
         let width = width.min(picture.width - x);
-        picture.paste(&view(&scene, width, middle, scale, name, x > 0), x, points(CAPTION));
+        picture.paste(
+            &view(&scene, width, middle, scale, name, x > 0),
+            x,
+            points(CAPTION),
+        );
         x += width;
     }
-    picture.paste(&caption_strip(seen, caption, picture.width, points(CAPTION), scale), 0, 0);
+    picture.paste(
+        &caption_strip(seen, caption, picture.width, points(CAPTION), scale),
+        0,
+        0,
+    );
     let below = points(CAPTION) + middle;
-    picture.paste(&frame::time_strip(seen, picture.width, points(TIME), scale), 0, below);
+    picture.paste(
+        &frame::time_strip(seen, picture.width, points(TIME), scale),
+        0,
+        below,
+    );
     let rest = picture.height - below - points(TIME);
-    picture.paste(&desk_strip(&seen.desk, picture.width, rest, scale), 0, below + points(TIME));
+    picture.paste(
+        &desk_strip(&seen.desk, picture.width, rest, scale),
+        0,
+        below + points(TIME),
+    );
     picture
 }
 
@@ -64,7 +87,11 @@ fn caption_strip(seen: &Snapshot, caption: &str, width: u32, height: u32, scale:
     let mut canvas = Canvas::new(width, height);
     let (wide, high) = (width as f32, height as f32);
     canvas.rectangle([0.0, 0.0], [wide, high], theme::PANEL);
-    canvas.rectangle([0.0, high - scale.max(1.0).round()], [wide, scale.max(1.0).round()], theme::EDGE);
+    canvas.rectangle(
+        [0.0, high - scale.max(1.0).round()],
+        [wide, scale.max(1.0).round()],
+        theme::EDGE,
+    );
     let size = theme::SIZE_BODY * scale;
     let y = ((high - size) / 2.0).round();
     canvas.text(caption, size, [theme::MARGIN * scale, y], theme::TEXT);
@@ -98,8 +125,18 @@ fn puppet(puppet: Option<&PuppetView>) -> Scene {
     let colour = if live { theme::LIVE } else { theme::DIM };
     let ink = Ink::new(colour, Layer::Figure);
     for [from, to] in bones {
-        scene.strokes.push(Stroke { from: *from, to: *to, width: theme::WIDTH_LINK, ink });
-        scene.dots.push(Dot { at: *from, radius: 2.5, mark: Mark::Disc, ink });
+        scene.strokes.push(Stroke {
+            from: *from,
+            to: *to,
+            width: theme::WIDTH_LINK,
+            ink,
+        });
+        scene.dots.push(Dot {
+            at: *from,
+            radius: 2.5,
+            mark: Mark::Disc,
+            ink,
+        });
     }
     scene
 }
@@ -114,17 +151,44 @@ fn desk_strip(desk: &DeskView, width: u32, height: u32, scale: f32) -> Picture {
     for (index, dial) in desk.dials.iter().enumerate() {
         let colour = if dial.live { theme::LIVE } else { theme::DIM };
         let x = (index as f32 + 0.5) * pitch;
-        label(&mut canvas, &dial.label, size * 0.9, [x, high * 0.1], if dial.live { theme::LIVE } else { theme::TEXT });
-        knob(&mut canvas, [x, high * 0.66], high * 0.24, dial.turns as f32, scale, colour);
+        label(
+            &mut canvas,
+            &dial.label,
+            size * 0.9,
+            [x, high * 0.1],
+            if dial.live { theme::LIVE } else { theme::TEXT },
+        );
+        knob(
+            &mut canvas,
+            [x, high * 0.66],
+            high * 0.24,
+            dial.turns as f32,
+            scale,
+            colour,
+        );
     }
     let (left, pitch) = (wide * 0.52, wide * 0.48 / 6.0);
     for (index, key) in desk.keys.iter().enumerate() {
         let x = left + (index % 6) as f32 * pitch;
         let y = high * if index < 6 { 0.1 } else { 0.54 };
-        let ground = if key.down { theme::LIVE.mix(theme::PANEL, 0.4) } else { theme::RAISED };
+        let ground = if key.down {
+            theme::LIVE.mix(theme::PANEL, 0.4)
+        } else {
+            theme::RAISED
+        };
         canvas.rectangle([x, y], [pitch - 4.0 * scale, high * 0.36], ground);
-        let colour = if key.down || key.lit { theme::TEXT } else { theme::DIM };
-        label(&mut canvas, &key.label, size * 0.9, [x + (pitch - 4.0 * scale) / 2.0, y + high * 0.08], colour);
+        let colour = if key.down || key.lit {
+            theme::TEXT
+        } else {
+            theme::DIM
+        };
+        label(
+            &mut canvas,
+            &key.label,
+            size * 0.9,
+            [x + (pitch - 4.0 * scale) / 2.0, y + high * 0.08],
+            colour,
+        );
     }
     canvas.finish()
 }
