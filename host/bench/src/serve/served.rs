@@ -1,0 +1,77 @@
+//! A device that can be served, and what the loop must know of it.
+
+use firmware_sim::dial_box::Output;
+use firmware_sim::hands::Hands;
+use firmware_sim::{Firmware, Script, ServoBus, SgiDialBox, WacomIv};
+
+use super::ServeError;
+use super::bus::Eeprom;
+
+/// A simulated device ready to be served.
+pub enum Served {
+    /// Dials and keys.
+    DialBox(Box<SgiDialBox>),
+    /// Pen and puck.
+    Tablet(Box<WacomIv>),
+    /// Servos, at a line speed, with memories that are kept if a folder is given.
+    Bus(Box<ServoBus>, u32, Option<Eeprom>),
+}
+
+impl Served {
+    pub(super) fn firmware(&mut self) -> &mut dyn Firmware {
+        match self {
+            Self::DialBox(dial_box) => &mut **dial_box,
+            Self::Tablet(tablet) => &mut **tablet,
+            Self::Bus(bus, ..) => &mut **bus,
+        }
+    }
+
+    /// Plays a script; a bus has no hands on it and plays nothing.
+    pub fn play(&mut self, script: &Script) {
+        match self {
+            Self::DialBox(dial_box) => dial_box.play(script),
+            Self::Tablet(tablet) => tablet.play(script),
+            Self::Bus(..) => {}
+        }
+    }
+
+    /// The device's own line speed.
+    pub fn baud(&self) -> u32 {
+        match self {
+            Self::DialBox(_) => firmware_sim::dial_box::BAUD,
+            Self::Tablet(_) => firmware_sim::wacom_iv::BAUD,
+            Self::Bus(_, baud, _) => *baud,
+        }
+    }
+
+    /// When there is something to hand over: of a bus, whole answers, for a host that is woken for every byte of
+    /// one has little time left; of the slow lines, each byte.
+    pub(super) fn wakes_us(&self, now_us: u64) -> Option<u64> {
+        match self {
+            Self::DialBox(dial_box) => dial_box.next_byte_us(),
+            Self::Tablet(tablet) => tablet.next_byte_us(),
+            Self::Bus(bus, ..) => {
+                let next_us = bus.next_byte_us()?;
+                let answer_us = bus.statuses().last().map(|answer| answer.last_us + 1);
+                answer_us.filter(|&end_us| end_us > now_us).or(Some(next_us))
+            }
+        }
+    }
+
+    /// Takes what the host has made the device show, with the time since reporting began.
+    pub(super) fn drain_outputs(&mut self, take: &mut dyn FnMut(u64, &Output)) {
+        if let Self::DialBox(dial_box) = self {
+            let since_us = dial_box.reporting_since_us().unwrap_or(u64::MAX);
+            for (at_us, output) in dial_box.drain_outputs() {
+                take(at_us.saturating_sub(since_us), &output);
+            }
+        }
+    }
+
+    pub(super) fn keep(&mut self) -> Result<(), ServeError> {
+        match self {
+            Self::Bus(bus, _, Some(eeprom)) => eeprom.keep(bus),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,150 @@
+use super::*;
+use device::clock::MonotonicClock;
+use device::transport::{self, Address, Transport};
+use device_profiles::Profiles;
+use firmware_sim::SgiDialBox;
+use firmware_sim::dial_box::Options;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+/// Ping to servo 1 and its status at factory settings: model 1060 (XL430-W250).
+const PING: &[u8] = &[0xFF, 0xFF, 0xFD, 0, 1, 3, 0, 1, 0x19, 0x4E];
+
+/// Serves `device` beside the test; `with` gets its address.
+fn serve(mut device: Served, place: &Place, with: impl FnOnce(&str)) -> Vec<(u64, Output)> {
+    let mut line = ServeLine::open(place, device.baud()).expect("opens");
+    let path = line.path().to_owned();
+    let stop = Arc::new(AtomicBool::new(false));
+    let shown = Arc::new(Mutex::new(Vec::new()));
+    let (stop_there, shown_there) = (Arc::clone(&stop), Arc::clone(&shown));
+    let thread = std::thread::spawn(move || {
+        let clock = MonotonicClock::new();
+        run(&mut device, &mut line, &clock, &stop_there, &mut |event| {
+            if let Event::Output(at_us, output) = event {
+                shown_there.lock().expect("whole").push((at_us, output.clone()));
+            }
+        })
+    });
+    with(&path);
+    stop.store(true, Ordering::Relaxed);
+    thread.join().expect("ends").expect("without an error");
+    Arc::into_inner(shown).expect("alone").into_inner().expect("whole")
+}
+
+fn open(path: &str, baud: u32) -> Box<dyn Transport> {
+    transport::open(&path.parse::<Address>().expect("an address"), baud).expect("opens")
+}
+
+fn hear(port: &mut dyn Transport, count: usize) -> (Vec<u8>, Duration) {
+    let clock = MonotonicClock::new();
+    let end = clock.now().after(Duration::from_secs(5));
+    let mut heard = Vec::new();
+    let mut buffer = [0; 256];
+    while heard.len() < count && clock.now() < end {
+        port.wait(&clock, end);
+        let count = port.read(&mut buffer).expect("there");
+        heard.extend_from_slice(&buffer[..count]);
+    }
+    (heard, clock.now().since(device::clock::Instant::ZERO))
+}
+
+fn bus(folder: Option<&Path>) -> Served {
+    let mut plan = BusPlan::new(ServoSpec::parse("XL430-W250:1-3,XL330-M288:7").expect("reads"));
+    plan.eeprom = folder.map(Path::to_owned);
+    plan.build(&Profiles::builtin()).expect("built in")
+}
+
+#[test]
+fn a_bus_answers_on_a_terminal_and_not_before_its_time() {
+    serve(bus(None), &Place::Pty(None), |path| {
+        let mut port = open(path, 1_000_000);
+        port.write(PING).expect("writes");
+        let (heard, took) = hear(&mut *port, 14);
+        assert_eq!(heard.get(..12).expect("a status"), [255, 255, 253, 0, 1, 7, 0, 0x55, 0, 36, 4, heard[11]]);
+        // 24 bytes of 10 us and a return delay of 500 us.
+        assert!(took >= Duration::from_micros(740), "{took:?}");
+    });
+}
+
+#[test]
+fn a_bus_answers_over_tcp_one_program_after_the_other() {
+    serve(bus(None), &Place::Tcp("127.0.0.1:0".into()), |path| {
+        for _ in 0..2 {
+            let mut port = open(path, 1_000_000);
+            port.write(PING).expect("writes");
+            assert_eq!(hear(&mut *port, 14).0.len(), 14);
+        }
+    });
+}
+
+#[test]
+fn a_wrong_speed_is_not_understood() {
+    serve(bus(None), &Place::Pty(None), |path| {
+        let mut port = open(path, 57_600);
+        port.write(PING).expect("writes");
+        let clock = MonotonicClock::new();
+        port.wait(&clock, clock.now().after(Duration::from_millis(20)));
+        assert_eq!(port.read(&mut [0; 16]).expect("there"), 0);
+    });
+}
+
+#[test]
+fn memories_outlive_the_program() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Write Return Delay Time 5 to servo 1.
+    let write = [0xFF, 0xFF, 0xFD, 0, 1, 6, 0, 3, 9, 0, 5, 0x01, 0x66];
+    let crc = firmware_crc(&write[..11]);
+    let write = [&write[..11], &crc.to_le_bytes()].concat();
+    serve(bus(Some(folder.path())), &Place::Pty(None), |path| {
+        let mut port = open(path, 1_000_000);
+        port.write(&write).expect("writes");
+        assert_eq!(hear(&mut *port, 11).0.len(), 11);
+    });
+    let Served::Bus(again, ..) = bus(Some(folder.path())) else { panic!("a bus") };
+    assert_eq!(again.servo(1).expect("there").register("Return Delay Time"), Some(5));
+    std::fs::write(folder.path().join("servo-2.eeprom"), [1, 2, 3]).expect("writes");
+    let mut plan = BusPlan::new(ServoSpec::parse("XL430-W250:2").expect("reads"));
+    plan.eeprom = Some(folder.path().to_owned());
+    let error = plan.build(&Profiles::builtin()).err().expect("three bytes are no memory").to_string();
+    assert!(error.contains("servo-2.eeprom: 3 bytes are not"), "{error}");
+}
+
+/// CRC-16 of the protocol page, bit by bit: polynomial 8005, nothing reflected.
+fn firmware_crc(bytes: &[u8]) -> u16 {
+    bytes.iter().fold(0, |crc: u16, &byte| {
+        (0..8).fold(crc ^ u16::from(byte) << 8, |crc, _| {
+            if crc & 0x8000 == 0 { crc << 1 } else { crc << 1 ^ 0x8005 }
+        })
+    })
+}
+
+#[test]
+fn a_dial_box_plays_its_script_and_tells_what_it_is_shown() {
+    let options = Options { labels: true, ..Options::default() };
+    let mut device = Served::DialBox(Box::new(SgiDialBox::new(options)));
+    let script = firmware_sim::Script::parse(firmware_sim::script::Device::DialBox, "at 0.05 dial 2 +5\n");
+    device.play(&script.expect("reads"));
+    let shown = serve(device, &Place::Pty(None), |path| {
+        let mut port = open(path, 9600);
+        port.write(&[0x20]).expect("writes");
+        assert_eq!(hear(&mut *port, 1).0, [0x20]);
+        // Thirteen bytes, over before the script's first turn.
+        port.write(b"\x50\x00\xFF\x61\x02X-Trans ").expect("writes");
+        assert_eq!(hear(&mut *port, 3).0, [0x32, 0, 5]);
+    });
+    assert!(shown.iter().any(|(_, output)| {
+        *output == Output::Label { control: 2, text: "X-Trans ".into() }
+    }), "{shown:?}");
+}
+
+#[test]
+fn servo_lists_are_read() {
+    let spec = |model: &str, first, last| ServoSpec { model: model.into(), first, last };
+    let good = ServoSpec::parse("XL430-W250:1-20, XL330-M288:7").expect("reads");
+    assert_eq!(good, [spec("XL430-W250", 1, 20), spec("XL330-M288", 7, 7)]);
+    for bad in ["", "XL430-W250", "XL430-W250:", ":1", "XL430-W250:5-1", "XL430-W250:1-253", "XL430-W250:x"] {
+        let error = ServoSpec::parse(bad).expect_err(bad).to_string();
+        assert!(error.contains("expected MODEL:ID"), "{error}");
+    }
+}
