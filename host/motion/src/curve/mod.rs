@@ -9,6 +9,7 @@ mod chord;
 mod deboor;
 mod edit;
 mod error;
+mod length;
 mod natural;
 mod piecewise;
 
@@ -17,6 +18,7 @@ pub use bspline::{BSpline, Basis};
 pub use chord::ChordLength;
 pub use edit::Remap;
 pub use error::SplineError;
+pub use length::arc_length;
 pub use natural::Natural;
 pub use piecewise::Piecewise;
 
