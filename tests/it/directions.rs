@@ -12,7 +12,10 @@ const MAY_DEPEND_ON: &[(&str, &[&str])] = &[
     ("ps300", &["solid"]),
     ("device", &["device-profiles"]),
     ("player", &["motion", "device", "device-profiles"]),
-    ("rig", &["motion", "solid", "ps300", "device", "player", "device-profiles"]),
+    (
+        "rig",
+        &["motion", "solid", "ps300", "device", "player", "device-profiles"],
+    ),
     ("firmware-sim", &["device-profiles"]),
     ("bench", &["rig", "device", "firmware-sim", "device-profiles"]),
     ("ui", &["rig", "motion", "solid", "ps300"]),
@@ -42,7 +45,11 @@ fn crates_depend_only_downwards() {
             }
         }
     }
-    assert!(wrong.is_empty(), "these point the wrong way:\n{}", wrong.join("\n"));
+    assert!(
+        wrong.is_empty(),
+        "these point the wrong way:\n{}",
+        wrong.join("\n")
+    );
 }
 
 #[test]
@@ -66,7 +73,10 @@ fn heavy_and_impure_libraries_stay_where_they_belong() {
         for package in &metadata.packages {
             let name = package.name.to_string();
             let has = package.dependencies.iter().any(|d| d.name == *library);
-            assert!(!has || crates.contains(&name.as_str()), "{name} depends on {library}; only {crates:?} may");
+            assert!(
+                !has || crates.contains(&name.as_str()),
+                "{name} depends on {library}; only {crates:?} may"
+            );
         }
     }
 }
@@ -76,22 +86,57 @@ const NEVER: &[(&str, &[&str], &str)] = &[
     ("host/motion/src", PURE, "motion is pure"),
     ("host/solid/src", PURE, "solid is pure"),
     ("host/ps300/src", PURE, "ps300 is pure and deterministic"),
-    ("host/device/src/codec", &["crate::transport", "std::io", "std::net", "std::fs"], "codecs run on a file of bytes"),
+    (
+        "host/device/src/codec",
+        &["crate::transport", "std::io", "std::net", "std::fs"],
+        "codecs run on a file of bytes",
+    ),
     (
         "host/device/src/servo/framing",
         &["crate::transport", "std::io", "std::net", "std::fs"],
         "framing runs on a file of bytes",
     ),
-    ("host/player/src", &["ps300", "rig"], "a network can neither starve nor reach the servo loop"),
-    ("host/rig/src", &["egui", "eframe", "wgpu"], "the rig has no window"),
-    ("ui/src/render", &["egui", "eframe", "egui_wgpu"], "pictures are made without a window"),
-    ("ui/src", &["device", "player"], "windows see commands and snapshots"),
-    ("host/cli/src", &["device", "player"], "commands see commands and snapshots"),
+    (
+        "host/player/src",
+        &["ps300", "rig"],
+        "a network can neither starve nor reach the servo loop",
+    ),
+    (
+        "host/rig/src",
+        &["egui", "eframe", "wgpu"],
+        "the rig has no window",
+    ),
+    (
+        "ui/src/render",
+        &["egui", "eframe", "egui_wgpu"],
+        "pictures are made without a window",
+    ),
+    (
+        "ui/src",
+        &["device", "player"],
+        "windows see commands and snapshots",
+    ),
+    (
+        "host/cli/src",
+        &["device", "player"],
+        "commands see commands and snapshots",
+    ),
 ];
 
 const PURE: &[&str] = &[
-    "std::fs", "std::thread", "std::time", "std::net", "std::env", "std::process", "std::io", "serde", "rand",
-    "HashMap", "HashSet", "std::collections::HashMap", "std::collections::HashSet",
+    "std::fs",
+    "std::thread",
+    "std::time",
+    "std::net",
+    "std::env",
+    "std::process",
+    "std::io",
+    "serde",
+    "rand",
+    "HashMap",
+    "HashSet",
+    "std::collections::HashMap",
+    "std::collections::HashSet",
 ];
 
 #[test]
@@ -111,7 +156,8 @@ fn modules_never_name_what_they_must_not_know() {
 
 /// Whether `path` is `word` or lies below it.
 fn begins_with(path: &str, word: &str) -> bool {
-    path.strip_prefix(word).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
+    path.strip_prefix(word)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
 }
 
 #[test]
@@ -126,6 +172,12 @@ fn goal_registers_have_one_writer() {
             }
         }
     }
-    let outside: Vec<_> = writers.iter().filter(|p| !p.starts_with("host/device/src/servo/")).collect();
-    assert!(outside.is_empty(), "only device::servo may name the goal registers: {outside:?}");
+    let outside: Vec<_> = writers
+        .iter()
+        .filter(|p| !p.starts_with("host/device/src/servo/"))
+        .collect();
+    assert!(
+        outside.is_empty(),
+        "only device::servo may name the goal registers: {outside:?}"
+    );
 }

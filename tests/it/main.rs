@@ -1,5 +1,6 @@
 //! The whole rig under test, in one binary.
 
 mod directions;
+mod golden;
 mod source;
 mod tidy;

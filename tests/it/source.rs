@@ -8,7 +8,9 @@ use syn::visit::{self, Visit};
 /// The repository's root.
 pub(crate) fn root() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    here.parent().expect("the tests crate lies in the repository").to_path_buf()
+    here.parent()
+        .expect("the tests crate lies in the repository")
+        .to_path_buf()
 }
 
 /// One Rust file.
@@ -51,7 +53,10 @@ fn collect(folder: &Path, ending: &str, found: &mut Vec<SourceFile>) {
             && let Ok(text) = fs::read_to_string(&path)
         {
             let path = path.strip_prefix(root()).expect("collected below the root");
-            found.push(SourceFile { path: path.to_string_lossy().replace('\\', "/"), text });
+            found.push(SourceFile {
+                path: path.to_string_lossy().replace('\\', "/"),
+                text,
+            });
         }
     }
 }
@@ -72,7 +77,11 @@ struct Paths {
 impl Paths {
     fn flatten(&mut self, tree: &syn::UseTree, prefix: &str) {
         let join = |name: &dyn std::fmt::Display| {
-            if prefix.is_empty() { name.to_string() } else { format!("{prefix}::{name}") }
+            if prefix.is_empty() {
+                name.to_string()
+            } else {
+                format!("{prefix}::{name}")
+            }
         };
         match tree {
             syn::UseTree::Path(path) => self.flatten(&path.tree, &join(&path.ident)),

@@ -21,13 +21,21 @@ fn all_rust_files() -> Vec<SourceFile> {
 
 #[test]
 fn files_are_about_one_thing() {
-    let mut lengths: Vec<(usize, String)> =
-        all_rust_files().into_iter().map(|f| (f.text.lines().count(), f.path)).collect();
+    let mut lengths: Vec<(usize, String)> = all_rust_files()
+        .into_iter()
+        .map(|f| (f.text.lines().count(), f.path))
+        .collect();
     lengths.sort();
-    let long: Vec<_> = lengths.iter().filter(|(lines, _)| *lines > FILE_LINES_MAX).collect();
+    let long: Vec<_> = lengths
+        .iter()
+        .filter(|(lines, _)| *lines > FILE_LINES_MAX)
+        .collect();
     assert!(long.is_empty(), "files over {FILE_LINES_MAX} lines: {long:?}");
     let (median, _) = lengths[lengths.len() / 2];
-    assert!(median <= FILE_LINES_MEDIAN, "the median file has {median} lines, wanted {FILE_LINES_MEDIAN} at most");
+    assert!(
+        median <= FILE_LINES_MEDIAN,
+        "the median file has {median} lines, wanted {FILE_LINES_MEDIAN} at most"
+    );
 }
 
 #[test]
@@ -42,7 +50,11 @@ fn functions_fit_a_screen() {
             }
         }
     }
-    assert!(wrong.is_empty(), "functions over {FUNCTION_LINES_MAX} lines:\n{}", wrong.join("\n"));
+    assert!(
+        wrong.is_empty(),
+        "functions over {FUNCTION_LINES_MAX} lines:\n{}",
+        wrong.join("\n")
+    );
 }
 
 #[derive(Default)]
@@ -76,17 +88,23 @@ fn every_file_says_what_it_is() {
         .filter(|f| !f.text.trim_start().starts_with("//!"))
         .map(|f| f.path)
         .collect();
-    assert!(silent.is_empty(), "these do not begin with what they are: {silent:?}");
+    assert!(
+        silent.is_empty(),
+        "these do not begin with what they are: {silent:?}"
+    );
 }
 
 #[test]
 fn no_drawers() {
-    let drawers = ["util", "utils", "helper", "helpers", "common", "misc", "manager", "types"];
+    let drawers = [
+        "util", "utils", "helper", "helpers", "common", "misc", "manager", "types",
+    ];
     let wrong: Vec<String> = all_rust_files()
         .into_iter()
         .map(|f| f.path)
         .filter(|path| {
-            path.split('/').any(|part| drawers.contains(&part.trim_end_matches(".rs")))
+            path.split('/')
+                .any(|part| drawers.contains(&part.trim_end_matches(".rs")))
         })
         .collect();
     assert!(wrong.is_empty(), "name these after what is in them: {wrong:?}");
@@ -104,7 +122,11 @@ fn no_leftovers() {
         concat!("#[ig", "nore"),
     ];
     let mut wrong = Vec::new();
-    for file in all_rust_files().iter().chain(&files("docs", "md")).chain(&files("networks", "ps300")) {
+    for file in all_rust_files()
+        .iter()
+        .chain(&files("docs", "md"))
+        .chain(&files("networks", "ps300"))
+    {
         for (index, line) in file.text.lines().enumerate() {
             if leftovers.iter().any(|word| line.contains(word)) {
                 wrong.push(format!("{}:{}: {}", file.path, index + 1, line.trim()));
@@ -117,7 +139,10 @@ fn no_leftovers() {
 #[test]
 fn profiles_name_their_source_and_no_code() {
     let mut wrong = Vec::new();
-    for file in files("device-profiles", "toml").iter().filter(|f| !f.path.ends_with("Cargo.toml")) {
+    for file in files("device-profiles", "toml")
+        .iter()
+        .filter(|f| !f.path.ends_with("Cargo.toml"))
+    {
         if !file.text.contains("source") {
             wrong.push(format!("{}: no source", file.path));
         }

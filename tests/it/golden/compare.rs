@@ -1,4 +1,5 @@
-//! Whether an answer agrees with a golden case, by the rules of the golden files' README.
+//! Whether an answer agrees with a golden case, by the rules of the golden files' README and of the comparer
+//! that lies beside them.
 
 use serde_json::{Map, Value};
 
@@ -11,7 +12,7 @@ const ZYZ_SLACK: f64 = 1e-8;
 
 /// How near is near: `|x - y| <= abs + rel * max(|x|, |y|)`.
 #[derive(Clone, Copy)]
-pub(crate) struct Tolerance {
+struct Tolerance {
     abs: f64,
     rel: f64,
 }
@@ -27,7 +28,7 @@ fn field(of: &Value, name: &str) -> f64 {
 }
 
 /// Every disagreement of one case, as a path and two values.
-pub(crate) fn disagreements(topic: &str, tolerance: &Value, expect: &Value, got: &Value) -> Vec<String> {
+pub(super) fn disagreements(topic: &str, tolerance: &Value, expect: &Value, got: &Value) -> Vec<String> {
     let mut out = Vec::new();
     if expect.get("reject").is_some() {
         for name in ["reject", "index", "link"] {

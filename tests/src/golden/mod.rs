@@ -1,19 +1,20 @@
-//! From a golden case's operation and input to this crate's answer, in the fields the case expects.
+//! From a golden case's operation and input to the project's answer, in the fields the case expects.
 //!
 //! Knows the golden files' vocabulary (degrees, reject codes, field names) and nothing of how answers are
-//! compared. Needs `motion`, `glam` and `serde_json` only, so it can be used from another crate by path.
+//! compared: that is `tests/it/golden`. Source of the vocabulary: the golden files' own README.
 
 mod bspline;
 mod double;
 mod interp;
+mod mesh;
 mod number;
 mod pose;
 mod robot;
 
 use serde_json::{Value, json};
 
-/// What this crate says to that operation; `None` for an operation it does not know.
-pub(crate) fn answer(op: &str, input: &Value) -> Option<Value> {
+/// What the project says to that operation; `None` for an operation it does not know.
+pub fn answer(op: &str, input: &Value) -> Option<Value> {
     let answered = match op {
         "eval" => bspline::eval(input),
         "move" => bspline::move_point(input),
@@ -29,13 +30,49 @@ pub(crate) fn answer(op: &str, input: &Value) -> Option<Value> {
         "figure_check" => pose::figure_check(input),
         "tablet" => pose::tablet(input),
         "robot" => robot::robot(input),
+        "mesh" => mesh::mesh(input),
         _ => return None,
     };
     Some(answered.unwrap_or_else(|refusal| refusal.0))
 }
 
+/// Answers a whole golden file: every case's name with what was got, whether or not it says what to expect.
+/// A case of an unknown operation gets `{"unknown": true}`.
+pub fn answers(file: &Value) -> Result<Value, GoldenError> {
+    let cases = file["cases"].as_array().ok_or(GoldenError::NoCases)?;
+    let answered: Result<Vec<Value>, GoldenError> = cases.iter().enumerate().map(answered).collect();
+    Ok(json!({ "cases": answered? }))
+}
+
+fn answered((index, case): (usize, &Value)) -> Result<Value, GoldenError> {
+    let text = |field| {
+        case[field]
+            .as_str()
+            .ok_or(GoldenError::Field { case: index, field })
+    };
+    let (name, op) = (text("name")?, text("op")?);
+    let got = answer(op, &case["input"]).unwrap_or_else(|| json!({ "unknown": true }));
+    Ok(json!({ "name": name, "got": got }))
+}
+
+/// A file is no golden file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GoldenError {
+    /// There is nothing to answer.
+    #[error("expected an object with a list \"cases\"; is this a golden file?")]
+    NoCases,
+    /// A case cannot be answered or named.
+    #[error("case {case} (counted from 0): expected a text \"{field}\"")]
+    Field {
+        /// Which case, counted from 0.
+        case: usize,
+        /// What it lacks.
+        field: &'static str,
+    },
+}
+
 /// A refusal in the files' words.
-pub(crate) struct Refusal(Value);
+struct Refusal(Value);
 
 impl Refusal {
     fn new(code: &str) -> Self {
