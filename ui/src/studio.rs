@@ -202,9 +202,14 @@ pub enum StudioError {
     Window(String),
 }
 
+/// Whether a window could be opened: for programs that want to know before they start anything else.
+pub fn check() -> Result<(), StudioError> {
+    crate::display::check()
+}
+
 /// Opens the window on a session and stays until it is closed.
 pub fn run(session: Box<dyn Session>) -> Result<(), StudioError> {
-    crate::display::check()?;
+    check()?;
     let viewport = egui::ViewportBuilder::default()
         .with_title("dialrig")
         .with_app_id("dialrig")

@@ -1,11 +1,16 @@
 //! The command line as a whole: options every command has, and the list of commands.
 
+use std::path::PathBuf;
+
 use clap::{ArgAction, Parser};
 
 use crate::command::Command;
 
 const EXAMPLES: &str = "\
 Examples:
+  dialrig                                   the studio, with the shipped example and simulated hardware
+  dialrig demo                              the whole chain as a film, no display needed
+  dialrig play shows/salute --port /dev/ttyUSB0 --port /dev/ttyUSB1
   dialrig figure shows/salute/figure/ar.str
   dialrig sample shows/salute --fps 30 > salute.jsonl
   dialrig net run networks/figure.ps300 --dial 1:0.25@0.5 --watch 'turn<1>'
@@ -15,12 +20,15 @@ Exit codes: 0 done, 1 refused or failed, 2 wrong usage, 3 ended by a device faul
 
 /// Pose articulated figures with physical controls; play them on screen and on servo puppets.
 #[derive(Debug, Parser)]
-#[command(name = "dialrig", version, after_help = EXAMPLES, arg_required_else_help = true)]
+#[command(name = "dialrig", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
 pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) showing: Showing,
+    /// A show folder or its show.toml, opened in the studio; the shipped example when left out
+    #[arg(value_name = "SHOW")]
+    pub(crate) show: Option<PathBuf>,
     #[command(subcommand)]
-    pub(crate) command: Command,
+    pub(crate) command: Option<Command>,
 }
 
 /// How results and remarks are shown.

@@ -178,6 +178,20 @@ impl Console {
                 self.plain(Weight::Error, &message, hint.as_deref());
                 Exit::Refused
             }
+            Err(Failure::Device { message, safe }) => {
+                let hint = (!safe)
+                    .then_some("torque could not be confirmed to be off; switch the puppet's power off");
+                self.plain(
+                    Weight::Error,
+                    &message,
+                    hint.filter(|hint| !message.contains(hint)),
+                );
+                if safe {
+                    Exit::FaultSafe
+                } else {
+                    Exit::FaultUnconfirmed
+                }
+            }
             // The reader has seen enough: `| head` is no failure.
             Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Done,
             Err(Failure::Output(error)) => {

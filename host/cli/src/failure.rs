@@ -14,6 +14,10 @@ pub(crate) enum Exit {
     Done = 0,
     /// The input was read and refused, or a check failed.
     Refused = 1,
+    /// A device or bus fault ended it; the safe state was reached.
+    FaultSafe = 3,
+    /// A device or bus fault ended it; the safe state could not be confirmed.
+    FaultUnconfirmed = 4,
 }
 
 impl From<Exit> for ExitCode {
@@ -33,6 +37,13 @@ pub(crate) enum Failure {
         message: String,
         /// What a person can do.
         hint: Option<String>,
+    },
+    /// A device or bus fault.
+    Device {
+        /// What happened, where, and what to do.
+        message: String,
+        /// Whether torque is known to be off, or nothing had any.
+        safe: bool,
     },
     /// Standard output took no more.
     Output(io::Error),
@@ -54,6 +65,41 @@ impl Failure {
             *hint = Some(advice.into());
         }
         self
+    }
+
+    /// A device or bus fault that left everything safe.
+    pub(crate) fn device(message: impl Into<String>) -> Self {
+        Self::Device {
+            message: message.into(),
+            safe: true,
+        }
+    }
+
+    /// Servos may still have torque.
+    pub(crate) fn torque_unknown() -> Self {
+        let message = "torque could not be confirmed to be off; switch the puppet's power off";
+        Self::Device {
+            message: message.to_owned(),
+            safe: false,
+        }
+    }
+
+    /// The same failure once it is known whether torque is off.
+    #[must_use]
+    pub(crate) fn after_release(self, released: bool) -> Self {
+        match self {
+            Self::Device { message, .. } => Self::Device {
+                message,
+                safe: released,
+            },
+            _ if !released => Self::torque_unknown(),
+            other => other,
+        }
+    }
+
+    /// Ended by Ctrl-C while a puppet may have been moving.
+    pub(crate) fn stopped(torque_off: bool) -> Self {
+        Self::interrupted().after_release(torque_off)
     }
 
     /// Ended by Ctrl-C before all was done.

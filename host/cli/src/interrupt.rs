@@ -5,6 +5,10 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// How long Ctrl-C may go unnoticed while waiting.
+const NAP: Duration = Duration::from_millis(50);
 
 /// Whether Ctrl-C (or a polite request to end) has come.
 #[derive(Clone, Debug)]
@@ -19,6 +23,18 @@ impl Interrupt {
         // Refused only when somebody listens already or the system lacks signals: the default then holds.
         let _ = ctrlc::set_handler(move || set.store(true, Ordering::Relaxed));
         Self(flag)
+    }
+
+    /// Waits, but not beyond the signal.
+    pub(crate) fn wait(&self, time: Duration) {
+        // Short naps: nothing here has a deadline, and the signal's handler cannot wake a thread safely.
+        let naps = (time.as_millis() / NAP.as_millis()).max(1);
+        for _ in 0..naps {
+            if self.came() {
+                return;
+            }
+            std::thread::park_timeout(NAP.min(time));
+        }
     }
 
     /// Whether to end now.

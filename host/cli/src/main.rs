@@ -12,6 +12,7 @@ mod failure;
 mod input;
 mod interrupt;
 mod number;
+mod setup;
 mod table;
 
 use std::process::ExitCode;
@@ -23,6 +24,9 @@ use console::Console;
 fn main() -> ExitCode {
     let args = args::Args::parse();
     let console = Console::new(args.showing);
-    let result = args.command.run(&console);
+    let result = match &args.command {
+        Some(command) => command.run(&console),
+        None => command::studio::run(args.show.as_ref(), &console),
+    };
     console.finish(result).into()
 }

@@ -42,4 +42,4 @@ pub use snapshot::{
     DeskKeyView, DeskView, DeviceHealth, DeviceView, DialView, FigureView, JointView, KeyView, KineticsView,
     Note, NoteLevel, PuppetState, PuppetView, Snapshot, TransportView, ViewState,
 };
-pub use system::{SystemPorts, WithBench};
+pub use system::{SystemPorts, WithBench, real_time};

@@ -282,7 +282,7 @@ pub struct PuppetView {
     pub interventions: u64,
     /// Control cycles that started late.
     pub late_cycles: u64,
-    /// The puppet as measured, standing upright: start and end of each of its links, metres, the base at the origin.
+    /// The puppet as measured, standing upright: the ends of its lines, metres, the base at the origin.
     pub bones: Vec<[DVec3; 2]>,
     /// Whether any servo may have torque.
     pub torque: bool,

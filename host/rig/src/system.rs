@@ -1,9 +1,17 @@
-//! The ports of this machine, and those of a bench beside them.
+//! The ports and the time of this machine, and the ports of a bench beside them.
 
+use std::sync::Arc;
+
+use device::clock::{Clock, MonotonicClock};
 use device::transport::{self, Address, Transport, TransportError, ports};
 
 use crate::command::Touch;
 use crate::ports::{Found, Ports, TouchError};
+
+/// This machine's monotonic time, beginning now.
+pub fn real_time() -> Arc<dyn Clock> {
+    Arc::new(MonotonicClock::new())
+}
 
 /// Serial ports, pseudo-terminals and sockets of this machine.
 #[derive(Clone, Copy, Debug, Default)]

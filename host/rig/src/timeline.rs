@@ -6,6 +6,9 @@ use crate::snapshot::TransportView;
 /// Slowest and fastest playing speed.
 const SPEED: std::ops::RangeInclusive<f64> = 0.05..=8.0;
 
+/// A key this near is the one at hand: half a frame at 30 a second, about what a dial's count moves.
+const KEY_REACH_SECS: f64 = 0.016;
+
 /// The transport's state. Times are animation seconds.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Timeline {
@@ -41,6 +44,17 @@ impl Timeline {
             v.secs = v.end_secs;
             v.playing = false;
         }
+    }
+
+    /// Goes along with something else that plays the clip, `since_start_secs` after its first key. Time that runs
+    /// by itself is left alone. Returns whether it moved.
+    pub(crate) fn go_along(&mut self, since_start_secs: f64) -> bool {
+        let secs = (self.view.start_secs + since_start_secs).clamp(self.view.start_secs, self.view.end_secs);
+        let moves = !self.view.playing && secs != self.view.secs;
+        if moves {
+            self.view.secs = secs;
+        }
+        moves
     }
 
     /// Does what was asked; says what was wrong with it otherwise. Returns whether time jumped or stopped
@@ -121,11 +135,17 @@ impl Timeline {
         &self.view
     }
 
-    /// The key at the present time, if there is one.
+    /// The key at the present time: the nearest one within [`KEY_REACH_SECS`].
     pub(crate) fn key_here(&self) -> Option<usize> {
-        self.key_secs
+        let away = |secs: &f64| (secs - self.view.secs).abs();
+        let nearest = self
+            .key_secs
             .iter()
-            .position(|&t| (t - self.view.secs).abs() < 5e-4)
+            .enumerate()
+            .min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
+        nearest
+            .filter(|(_, secs)| away(secs) <= KEY_REACH_SECS)
+            .map(|(index, _)| index)
     }
 }
 
@@ -172,6 +192,21 @@ mod tests {
         ] {
             t.apply(&TransportCommand::Key(step)).expect("steps");
             assert_eq!(t.secs(), want, "after a step of {step}");
+        }
+    }
+
+    #[test]
+    fn the_key_at_hand_is_the_nearest_within_reach() {
+        let mut t = timeline();
+        for (secs, want) in [
+            (0.0, Some(0)),
+            (0.99, Some(1)),
+            (1.015, Some(1)),
+            (1.02, None),
+            (2.0, None),
+        ] {
+            t.apply(&TransportCommand::Seek { secs }).expect("seeks");
+            assert_eq!(t.key_here(), want, "at {secs}");
         }
     }
 

@@ -120,7 +120,7 @@ fn puppet(puppet: Option<&PuppetView>) -> Scene {
     let bones = puppet.map(|p| p.bones.as_slice()).unwrap_or_default();
     let reach = bones.iter().flatten().map(|at| at.y.abs()).fold(0.1, f64::max);
     let centre = DVec3::new(0.0, -reach * 0.42, 0.0);
-    let mut scene = Scene::new(Camera::turned(0.3, 0.08, centre, reach * 0.95));
+    let mut scene = Scene::new(Camera::turned(0.3, 0.08, centre, reach * 1.15));
     let live = puppet.is_some_and(|p| p.torque);
     let colour = if live { theme::LIVE } else { theme::DIM };
     let ink = Ink::new(colour, Layer::Figure);

@@ -3,9 +3,15 @@
 mod check;
 mod convert;
 mod curve;
+mod demo;
+mod devices;
 mod figure;
+mod monitor;
 mod net;
+mod play;
 mod sample;
+mod servo;
+pub(crate) mod studio;
 
 use clap::Subcommand;
 
@@ -15,6 +21,10 @@ use crate::failure::{Exit, Failure};
 /// Everything that can be asked for.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// The whole chain without hardware or display, as a film
+    Demo(demo::Args),
+    /// A show on a servo puppet, without a window
+    Play(play::Args),
     /// Where everything is over time, without drawing
     Sample(sample::Args),
     /// Everything that is wrong with files
@@ -27,18 +37,29 @@ pub(crate) enum Command {
     Curve(curve::Args),
     /// Function networks without devices: run, check, print, draw, look up
     Net(net::Args),
+    /// What can be opened, what is known about it, what is missing
+    Devices(devices::Args),
+    /// What an input device says
+    Monitor(monitor::Args),
+    /// Servos: who is there, their registers, letting go
+    Servo(servo::Args),
 }
 
 impl Command {
     /// Does what was asked for.
     pub(crate) fn run(&self, console: &Console) -> Result<Exit, Failure> {
         match self {
+            Self::Demo(args) => demo::run(args, console),
+            Self::Play(args) => play::run(args, console),
             Self::Sample(args) => sample::run(args, console),
             Self::Check(args) => check::run(args, console),
             Self::Convert(args) => convert::run(args, console),
             Self::Figure(args) => figure::run(args, console),
             Self::Curve(args) => curve::run(args, console),
             Self::Net(args) => net::run(args, console),
+            Self::Devices(args) => devices::run(args, console),
+            Self::Monitor(args) => monitor::run(args, console),
+            Self::Servo(args) => servo::run(args, console),
         }
     }
 }

@@ -1,10 +1,14 @@
-//! What a puppet looks like at given joint angles: one line a group, standing upright.
+//! What a puppet looks like at given joint angles, standing upright: one line a group, and one from each group to
+//! the nearer end of the group it hangs from.
 
 use device_profiles::PuppetProfile;
 use glam::{DQuat, DVec3};
 use motion::{Chain, Figure, Rigid};
 
 use super::body::{chain_of, tree_of, upright};
+
+/// Ends nearer than this need no line between them, metres.
+const JOINED_M: f64 = 1e-3;
 
 /// Lines to draw a puppet with.
 #[derive(Debug)]
@@ -22,6 +26,8 @@ struct Bone {
     joint: Option<usize>,
     start: DVec3,
     end: DVec3,
+    /// The bone it hangs from.
+    parent: Option<usize>,
 }
 
 impl Bones {
@@ -51,6 +57,7 @@ impl Bones {
                 joint,
                 start: tool.translation,
                 end,
+                parent,
             });
         }
         Some(Self {
@@ -60,7 +67,7 @@ impl Bones {
         })
     }
 
-    /// Start and end of every group's link, metres, world axes (x right, y up, z towards the viewer), the base at
+    /// Start and end of every group's link and of the lines that join them, metres, world axes (x right, y up, z towards the viewer), the base at
     /// the origin.
     pub(super) fn at(&mut self, angles_rad: &[f64]) -> Vec<[DVec3; 2]> {
         let base = Rigid {
@@ -73,7 +80,22 @@ impl Bones {
             let frame = frame(bone.joint);
             [frame.transform_point(bone.start), frame.transform_point(bone.end)]
         };
-        self.lines.iter().map(line).collect()
+        let mut lines: Vec<[DVec3; 2]> = self.lines.iter().map(line).collect();
+        for (index, bone) in self.lines.iter().enumerate() {
+            let Some([from, to]) = bone.parent.and_then(|parent| lines.get(parent).copied()) else {
+                continue;
+            };
+            let start = lines[index][0];
+            let nearer = if start.distance_squared(from) <= start.distance_squared(to) {
+                from
+            } else {
+                to
+            };
+            if nearer.distance(start) > JOINED_M {
+                lines.push([nearer, start]);
+            }
+        }
+        lines
     }
 }
 

@@ -16,7 +16,7 @@ use device::clock::{Clock, Instant};
 use device_profiles::{ProfileError, Profiles, PuppetProfile};
 use motion::clip::Clip;
 use motion::{JointClip, Placed};
-use player::{Order, PlayerConfig, Puppet, PuppetError};
+use player::{Order, Phase, PlayerConfig, Puppet, PuppetError, State};
 
 pub use body::{Body, BodyError, Follower, RestFrames};
 use bones::Bones;
@@ -239,6 +239,17 @@ impl Seat {
         }
         self.runner.advance(now, &self.lines, ports, &mut self.remarks);
         std::mem::take(&mut self.remarks)
+    }
+
+    /// The time of the clip being performed, since its first key; `None` while none runs.
+    pub(crate) fn performed_secs(&self) -> Option<f64> {
+        let mut secs = None;
+        self.runner.report(&mut |report| {
+            let runs =
+                report.state == State::Playing && report.phase == Phase::Running && self.follower.is_none();
+            secs = report.clip_secs.filter(|_| runs);
+        });
+        secs
     }
 
     pub(crate) fn view(&mut self, now: Instant) -> PuppetView {

@@ -217,6 +217,14 @@ impl Rig {
         for (level, remark) in puppet.advance(self.now, self.ports.as_mut()) {
             self.notes.add(secs, level, remark);
         }
+        // The figure on screen goes along with what the puppet performs, unless a hand is posing it.
+        let performed_secs = puppet.performed_secs();
+        let by_hand = self.stage.as_ref().is_some_and(Stage::posing);
+        if let Some(performed_secs) = performed_secs.filter(|_| !by_hand)
+            && self.timeline.go_along(performed_secs)
+        {
+            self.show_clip();
+        }
     }
 
     fn show_on_devices(&mut self) {

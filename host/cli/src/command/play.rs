@@ -1,0 +1,244 @@
+//! `dialrig play`: plays a show on servos, without a window.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::time::Duration;
+
+use bench::world::Equipment;
+use rig::{Command, Live, NoteLevel, PuppetCommand, PuppetState, Snapshot, TransportCommand};
+
+use crate::console::Console;
+use crate::failure::{Exit, Failure};
+use crate::interrupt::Interrupt;
+use crate::number;
+use crate::setup::{self, LiveSetup};
+
+const EXAMPLES: &str = "\
+Examples:
+  dialrig play shows/salute                                   on the simulated marionette
+  dialrig play shows/salute --port /dev/ttyUSB0 --port /dev/ttyUSB1 --log run.csv";
+
+/// Snapshots that may wait for the log; a second of them.
+const WAITING: usize = 128;
+/// A puppet that has not armed or let go by then never will.
+const PATIENCE_SECS: f64 = 10.0;
+
+/// Plays a show's clip on a servo puppet: starts softly from wherever the puppet stands, keeps every limit, and lets
+/// go at the end. Ctrl-C stops safely.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// A show folder or its show.toml
+    show: PathBuf,
+    /// Another puppet than the show's
+    #[arg(long, value_name = "NAME")]
+    puppet: Option<String>,
+    /// Where the puppet's buses are, one for each in the profile's order; the simulated ones when left out
+    #[arg(long = "port", value_name = "PORT")]
+    ports: Vec<String>,
+    /// Begin again at the end
+    #[arg(long = "loop")]
+    looped: bool,
+    /// Where to begin
+    #[arg(long, value_name = "SECS", default_value_t = 0.0, value_parser = number::secs)]
+    from: f64,
+    /// Playing speed; 1 is real time
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
+    speed: f64,
+    /// Control cycles a second, 10 to 500
+    #[arg(long, value_name = "HZ", default_value_t = 100.0, value_parser = rate)]
+    rate: f64,
+    /// Goals and readings: t_secs,joint,goal_rad,measured_rad
+    #[arg(long, value_name = "FILE.csv")]
+    log: Option<PathBuf>,
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    match number::finite(text) {
+        Ok(hz) if (10.0..=500.0).contains(&hz) => Ok(hz),
+        _ => Err("expected 10 to 500".to_owned()),
+    }
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
+    let (show, _) = setup::show(Some(&args.show), console)?;
+    let Some(puppet) = args.puppet.clone().or_else(|| show.puppet.clone()) else {
+        return Err(
+            Failure::refused("the show names no puppet").with_hint("name one with --puppet, or in show.toml")
+        );
+    };
+    if args.ports.is_empty() {
+        console.remark("no --port: playing on the simulated puppet");
+    }
+    let mut log = args.log.as_ref().map(Log::create).transpose()?;
+    let setup = LiveSetup {
+        show,
+        folder: None,
+        profiles: setup::profiles()?,
+        equipment: Equipment {
+            knobs: None,
+            tablet: None,
+            puppet: Some(puppet),
+            ..Equipment::default()
+        },
+        inputs: Vec::new(),
+        ports: args.ports.clone(),
+        period: Duration::from_secs_f64(1.0 / args.rate),
+    };
+    let interrupt = Interrupt::listen();
+    let (seen, snapshots) = sync_channel(WAITING);
+    let live = setup.start(move |snapshot| pass_on(&seen, snapshot))?;
+    let mut show = Performance {
+        console,
+        args,
+        log: log.as_mut(),
+        notes_told: 0,
+    };
+    let played = show.play(&live, &snapshots, &interrupt);
+    let released = live.close();
+    if let Some(log) = log {
+        log.finish()?;
+    }
+    match played {
+        Ok(()) if released => Ok(Exit::Done),
+        Ok(()) => Err(Failure::torque_unknown()),
+        Err(failure) => Err(failure.after_release(released)),
+    }
+}
+
+/// A log that cannot keep up loses snapshots, never the rig its pace.
+fn pass_on(seen: &SyncSender<Arc<Snapshot>>, snapshot: &Arc<Snapshot>) {
+    let _ = seen.try_send(Arc::clone(snapshot));
+}
+
+struct Performance<'a> {
+    console: &'a Console,
+    args: &'a Args,
+    log: Option<&'a mut Log>,
+    notes_told: usize,
+}
+
+impl Performance<'_> {
+    fn play(
+        &mut self,
+        live: &Live,
+        snapshots: &Receiver<Arc<Snapshot>>,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        live.send(Command::Transport(TransportCommand::Seek {
+            secs: self.args.from,
+        }));
+        live.send(Command::Transport(TransportCommand::Speed(self.args.speed)));
+        live.send(Command::Transport(TransportCommand::Loop(self.args.looped)));
+        live.send(Command::Puppet(PuppetCommand::Arm));
+        self.until(snapshots, interrupt, Some(PATIENCE_SECS), PuppetState::Holding)?;
+        self.console.remark("armed: goals pinned to the measured pose");
+        live.send(Command::Puppet(PuppetCommand::Play));
+        self.until(snapshots, interrupt, Some(PATIENCE_SECS), PuppetState::Playing)?;
+        self.until(snapshots, interrupt, None, PuppetState::Holding)?;
+        self.console.remark("played; letting go");
+        live.send(Command::Puppet(PuppetCommand::Release));
+        self.until(snapshots, interrupt, Some(PATIENCE_SECS), PuppetState::Released)
+    }
+
+    /// Follows what is seen until the puppet is as wanted.
+    fn until(
+        &mut self,
+        snapshots: &Receiver<Arc<Snapshot>>,
+        interrupt: &Interrupt,
+        limit_secs: Option<f64>,
+        wanted: PuppetState,
+    ) -> Result<(), Failure> {
+        let mut began_secs = None;
+        loop {
+            if interrupt.came() {
+                return Err(Failure::interrupted());
+            }
+            let Ok(seen) = snapshots.recv_timeout(Duration::from_secs(1)) else {
+                return Err(Failure::device("the rig has stopped"));
+            };
+            self.tell(&seen);
+            let Some(puppet) = &seen.puppet else { continue };
+            if let Some(log) = &mut self.log {
+                log.rows(&seen)?;
+            }
+            if puppet.state == wanted {
+                return Ok(());
+            }
+            if puppet.state == PuppetState::Faulted {
+                return Err(Failure::device(puppet.fault.clone().unwrap_or_default()));
+            }
+            let waited_secs = seen.at_secs - *began_secs.get_or_insert(seen.at_secs);
+            if limit_secs.is_some_and(|limit| waited_secs > limit) {
+                let why = puppet
+                    .fault
+                    .clone()
+                    .unwrap_or_else(|| format!("the puppet did not become {wanted:?} in time"));
+                return Err(Failure::device(why));
+            }
+        }
+    }
+
+    /// Says what the rig has remarked since the last time.
+    fn tell(&mut self, seen: &Snapshot) {
+        if seen.notes.len() < self.notes_told {
+            self.notes_told = 0;
+        }
+        for note in &seen.notes[self.notes_told..] {
+            if note.level >= NoteLevel::Info {
+                self.console.remark(&note.text);
+            }
+        }
+        self.notes_told = seen.notes.len();
+    }
+}
+
+/// The log file, put in place whole when it ends.
+struct Log {
+    path: PathBuf,
+    out: BufWriter<File>,
+    last_secs: f64,
+}
+
+impl Log {
+    fn create(path: &PathBuf) -> Result<Self, Failure> {
+        let cannot =
+            |error: std::io::Error| Failure::refused(format!("cannot write {}: {error}", path.display()));
+        let mut out = BufWriter::new(File::create(path).map_err(cannot)?);
+        writeln!(out, "t_secs,joint,goal_rad,measured_rad").map_err(cannot)?;
+        Ok(Self {
+            path: path.clone(),
+            out,
+            last_secs: f64::NEG_INFINITY,
+        })
+    }
+
+    fn rows(&mut self, seen: &Snapshot) -> Result<(), Failure> {
+        let Some(puppet) = seen.puppet.as_ref().filter(|_| seen.at_secs > self.last_secs) else {
+            return Ok(());
+        };
+        self.last_secs = seen.at_secs;
+        for joint in &puppet.joints {
+            if let (Some(goal_rad), Some(measured_rad)) = (joint.goal_rad, joint.measured_rad) {
+                writeln!(
+                    self.out,
+                    "{:.6},{},{goal_rad:.6},{measured_rad:.6}",
+                    seen.at_secs, joint.name
+                )
+                .map_err(|error| {
+                    Failure::refused(format!("cannot write {}: {error}", self.path.display()))
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<(), Failure> {
+        self.out
+            .flush()
+            .map_err(|error| Failure::refused(format!("cannot write {}: {error}", self.path.display())))
+    }
+}

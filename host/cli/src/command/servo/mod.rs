@@ -1,0 +1,107 @@
+//! `dialrig servo`: looking after servos. Nothing here can move one.
+
+mod monitor;
+mod ping;
+mod read;
+mod release;
+mod scan;
+
+use clap::Subcommand;
+use rig::SystemPorts;
+use rig::maintenance::{FoundServo, ServoLine, ServoLineError};
+use serde::Serialize;
+
+use crate::console::Console;
+use crate::failure::{Exit, Failure};
+use crate::setup;
+
+const EXAMPLES: &str = "\
+Examples:
+  dialrig servo scan --port /dev/ttyUSB0
+  dialrig servo read --port /dev/ttyUSB0 --baud 1000000 3 'Present Position'
+  dialrig servo release --port /dev/ttyUSB0 --baud 1000000";
+
+/// Who is on a servo line, what their registers say, and letting go of them.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What can be done with a servo line.
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Everybody on the line, at one or all line speeds
+    Scan(scan::Args),
+    /// Who a servo is
+    Ping(ping::Args),
+    /// One register of a servo, or all
+    Read(read::Args),
+    /// Position, load, voltage and temperature, again and again
+    Monitor(monitor::Args),
+    /// Torque off on every servo of the line
+    Release(release::Args),
+}
+
+/// Where the line is.
+#[derive(Debug, clap::Args)]
+struct LineArgs {
+    /// A device path, tcp:HOST:PORT or usb:SERIAL
+    #[arg(long, value_name = "PORT")]
+    port: String,
+    /// Line speed; servos come from the factory at 57600
+    #[arg(long, value_name = "N", default_value_t = 57_600)]
+    baud: u32,
+}
+
+impl LineArgs {
+    fn open(&self) -> Result<ServoLine, Failure> {
+        let profiles = setup::profiles()?;
+        ServoLine::open(
+            &mut SystemPorts,
+            &self.port,
+            self.baud,
+            rig::real_time(),
+            profiles,
+        )
+        .map_err(failed)
+    }
+}
+
+/// A line or servo that does not do what it should is a device's fault; nothing here has given it torque.
+fn failed(error: ServoLineError) -> Failure {
+    match error {
+        ServoLineError::UnknownModel { .. } => Failure::refused(error.to_string()),
+        other => Failure::device(other.to_string()),
+    }
+}
+
+#[derive(Serialize)]
+struct FoundRecord<'a> {
+    id: u8,
+    baud: u32,
+    model_number: u16,
+    model: Option<&'a str>,
+    firmware: u8,
+}
+
+fn record(found: &FoundServo) -> FoundRecord<'_> {
+    FoundRecord {
+        id: found.id,
+        baud: found.baud,
+        model_number: found.model_number,
+        model: found.model.as_deref(),
+        firmware: found.firmware,
+    }
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
+    match &args.command {
+        Command::Scan(args) => scan::run(args, console),
+        Command::Ping(args) => ping::run(args, console),
+        Command::Read(args) => read::run(args, console),
+        Command::Monitor(args) => monitor::run(args, console),
+        Command::Release(args) => release::run(args, console),
+    }
+}

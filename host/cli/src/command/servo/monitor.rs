@@ -1,0 +1,71 @@
+//! `dialrig servo monitor`: what servos say about themselves, again and again.
+
+use std::time::Duration;
+
+use serde_json::{Map, json};
+
+use super::{LineArgs, failed};
+use crate::console::Console;
+use crate::failure::{Exit, Failure};
+use crate::interrupt::Interrupt;
+use crate::number;
+
+const EXAMPLES: &str = "\
+Example:
+  dialrig servo monitor --port /dev/ttyUSB0 --baud 1000000 1 2 3";
+
+/// What is read; a servo without one of them leaves it out.
+const REGISTERS: [(&str, &str); 5] = [
+    ("torque", "Torque Enable"),
+    ("position", "Present Position"),
+    ("velocity", "Present Velocity"),
+    ("voltage", "Present Input Voltage"),
+    ("temperature", "Present Temperature"),
+];
+
+/// Shows torque, position, velocity, voltage and temperature of servos until Ctrl-C.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    line: LineArgs,
+    /// Their ids
+    #[arg(required = true, value_name = "ID", value_parser = clap::value_parser!(u8).range(0..=252))]
+    ids: Vec<u8>,
+    /// Seconds between readings
+    #[arg(long, value_name = "SECS", default_value_t = 0.5, value_parser = number::secs)]
+    every: f64,
+    /// Ends after so many readings
+    #[arg(long, value_name = "N")]
+    count: Option<u64>,
+}
+
+pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
+    let mut line = args.line.open()?;
+    let interrupt = Interrupt::listen();
+    let mut readings = 0;
+    while !interrupt.came() && args.count.is_none_or(|count| readings < count) {
+        if readings > 0 {
+            interrupt.wait(Duration::from_secs_f64(args.every));
+        }
+        for &id in &args.ids {
+            let mut record = Map::new();
+            record.insert("id".into(), json!(id));
+            let mut words = Vec::new();
+            for (name, register) in REGISTERS {
+                for value in line.read(id, Some(register)).map_err(failed)? {
+                    let shown = value.value.unwrap_or(value.raw as f64);
+                    record.insert(name.into(), json!(shown));
+                    words.push(format!("{name} {} {}", number::short(shown), value.unit));
+                }
+            }
+            if console.json() {
+                console.record(&record)?;
+            } else {
+                console.line(format_args!("servo {id}: {}", words.join(", ")))?;
+            }
+        }
+        readings += 1;
+    }
+    Ok(Exit::Done)
+}

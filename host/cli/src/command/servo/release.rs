@@ -1,0 +1,30 @@
+//! `dialrig servo release`: torque off.
+
+use super::{LineArgs, failed};
+use crate::console::Console;
+use crate::failure::{Exit, Failure};
+
+const EXAMPLES: &str = "\
+Example:
+  dialrig servo release --port /dev/ttyUSB0 --baud 1000000";
+
+/// Switches torque off on every servo of the line, and checks those that answer.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    line: LineArgs,
+}
+
+pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
+    let mut line = args.line.open()?;
+    line.release().map_err(failed)?;
+    let found = line.scan(&[args.line.baud], &mut |_| {}).map_err(failed)?;
+    for servo in &found {
+        if !line.is_released(servo.id).map_err(failed)? {
+            return Err(Failure::torque_unknown());
+        }
+    }
+    console.remark(format_args!("torque is off on {} servos", found.len()));
+    Ok(Exit::Done)
+}

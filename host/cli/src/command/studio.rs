@@ -1,0 +1,45 @@
+//! `dialrig [SHOW]`: the studio's window.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use bench::world::Equipment;
+
+use crate::console::Console;
+use crate::failure::{Exit, Failure};
+use crate::setup::{self, LiveSetup};
+
+/// Control cycles of the puppet.
+const PERIOD: Duration = Duration::from_millis(10);
+
+pub(crate) fn run(show: Option<&PathBuf>, console: &Console) -> Result<Exit, Failure> {
+    // Before anything else, so that a machine without a display hears of it at once.
+    ui::studio::check().map_err(|error| {
+        Failure::refused(error.to_string()).with_hint("`dialrig demo` shows everything in files")
+    })?;
+    let (show, folder) = setup::show(show.map(PathBuf::as_path), console)?;
+    let equipment = Equipment {
+        puppet: show.puppet.clone(),
+        ..Equipment::default()
+    };
+    let setup = LiveSetup {
+        show,
+        folder,
+        profiles: setup::profiles()?,
+        equipment,
+        inputs: Vec::new(),
+        ports: Vec::new(),
+        period: PERIOD,
+    };
+    let live = Arc::new(setup.start(|_| {})?);
+    let shown = ui::studio::run(Box::new(Arc::clone(&live)));
+    // The window is gone, and with it the other owner; the rig lets go of the puppet before the program ends.
+    let released = Arc::into_inner(live).is_none_or(rig::Live::close);
+    shown.map_err(|error| Failure::refused(error.to_string()))?;
+    if released {
+        Ok(Exit::Done)
+    } else {
+        Err(Failure::torque_unknown())
+    }
+}
