@@ -112,7 +112,8 @@ impl<'ast> Visit<'ast> for Paths {
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let names: Vec<String> = path.segments.iter().map(|s| s.ident.to_string()).collect();
-        if let Some(first) = path.segments.first() {
+        // A single name in code is a variable, or something that a `use` has brought and was found there.
+        if let (Some(first), true) = (path.segments.first(), names.len() > 1) {
             self.note(first.ident.span(), names.join("::"));
         }
         visit::visit_path(self, path);
