@@ -38,4 +38,4 @@ pub use order::{Order, Rejection};
 pub use player::{Player, State};
 pub use puppet::{Puppet, PuppetBus, PuppetError, Seat};
 pub use report::{Interventions, JointReport, Phase, Report};
-pub use run::run;
+pub use run::{Operator, run};

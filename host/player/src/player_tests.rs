@@ -395,33 +395,76 @@ fn a_lost_line_is_reconnected_and_armed_from_where_the_joints_are() {
     bench.tick(vec![]);
 }
 
+/// An operator with a list of orders, and a line to give back, who leaves after so many ticks.
+struct Visitor {
+    orders: std::vec::IntoIter<Order>,
+    line: Option<(String, Box<dyn Transport>)>,
+    ticks: u128,
+    leaves_at: u128,
+    states: Vec<&'static str>,
+}
+
+impl Visitor {
+    fn new(orders: Vec<Order>, leaves_at: u128) -> Self {
+        Self {
+            orders: orders.into_iter(),
+            line: None,
+            ticks: 0,
+            leaves_at,
+            states: Vec::new(),
+        }
+    }
+}
+
+impl crate::Operator for Visitor {
+    fn order(&mut self) -> Option<Order> {
+        self.orders.next()
+    }
+
+    fn returned_line(&mut self) -> Option<(String, Box<dyn Transport>)> {
+        self.line.take()
+    }
+
+    fn seen(&mut self, player: &Player) -> std::ops::ControlFlow<()> {
+        self.ticks += 1;
+        self.states.push(player.state().name());
+        if self.ticks >= self.leaves_at {
+            std::ops::ControlFlow::Break(())
+        } else {
+            std::ops::ControlFlow::Continue(())
+        }
+    }
+}
+
 #[test]
 fn the_loop_ends_without_torque_however_it_is_left() {
     let mut bench = Bench::new(PlayerConfig::default());
-    let mut orders = vec![Order::Arm].into_iter();
-    let mut ticks = 0;
+    let mut visitor = Visitor::new(vec![Order::Arm], 150);
     let began = bench.clock.now();
-    crate::run(
-        &mut bench.player,
-        &bench.clock,
-        PERIOD,
-        &mut || orders.next(),
-        &mut |report| {
-            ticks += 1;
-            if report.state == State::Holding && ticks > 100 {
-                std::ops::ControlFlow::Break(())
-            } else {
-                std::ops::ControlFlow::Continue(())
-            }
-        },
-    );
+    crate::run(&mut bench.player, &bench.clock, PERIOD, &mut visitor);
+    assert!(visitor.states.contains(&"holding"));
     assert!(!bench.torque());
     let took = bench.clock.now().since(began);
     assert_eq!(
         took.as_millis().div_ceil(20),
-        ticks - 1,
+        visitor.ticks - 1,
         "one tick a period, none in a burst"
     );
+}
+
+#[test]
+fn a_line_that_is_back_does_not_end_a_fault() {
+    let mut bench = Bench::new(PlayerConfig::default());
+    bench.tick(vec![Order::Arm]);
+    bench.until("holding");
+    bench.far[1].desk().gone = true;
+    bench.until("faulted");
+    bench.far[1].desk().gone = false;
+    let mut visitor = Visitor::new(Vec::new(), 50);
+    visitor.line = Some(("lower".to_owned(), bench.far[1].transport()));
+    crate::run(&mut bench.player, &bench.clock, PERIOD, &mut visitor);
+    let stayed = visitor.states.iter().take(50).all(|state| *state == "faulted");
+    assert!(stayed, "only a reset leaves it: {:?}", visitor.states);
 }
 
 fn order() -> impl Strategy<Value = u8> {

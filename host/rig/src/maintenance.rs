@@ -89,7 +89,7 @@ impl ServoLine {
         clock: Arc<dyn Clock>,
         profiles: Arc<Profiles>,
     ) -> Result<Self, ServoLineError> {
-        let line = Maintenance::new(ports.open(address, baud)?, baud, &*clock)?;
+        let line = Maintenance::new(ports.open(address, baud)?, baud)?;
         Ok(Self {
             line,
             clock,

@@ -445,10 +445,23 @@ fn maintenance_reads_and_writes_but_moves_nothing() {
 }
 
 #[test]
-fn maintenance_of_an_unknown_line_begins_with_torque_off() {
+fn maintenance_of_an_unknown_line_changes_nothing_before_it_writes() {
     let clock = VirtualClock::new();
     let far = Responder::new(&clock, &servo(), &IDS);
     far.desk().set(2, TORQUE, &[1]);
-    Maintenance::new(far.transport(), 1_000_000, &clock).unwrap();
-    assert_eq!(far.desk().get(2, TORQUE, 1), 0);
+    let mut maintenance = Maintenance::new(far.transport(), 1_000_000).unwrap();
+    maintenance
+        .read_register(&servo(), 1, "Present Position", &clock)
+        .unwrap();
+    assert_eq!(
+        far.desk().get(2, TORQUE, 1),
+        1,
+        "asking one servo lets no other fall"
+    );
+    maintenance.write_register(&servo(), 1, "LED", 1, &clock).unwrap();
+    assert_eq!(
+        far.desk().get(2, TORQUE, 1),
+        0,
+        "writing begins with torque off everywhere"
+    );
 }

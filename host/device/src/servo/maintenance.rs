@@ -106,10 +106,11 @@ pub struct Heard {
     pub garbled: bool,
 }
 
-/// A bus taken apart. Torque is off while this exists.
+/// A bus taken apart. Asking changes nothing; the first write switches torque off on the whole line.
 pub struct Maintenance {
     line: Line,
     bus: Option<Bus>,
+    released: bool,
 }
 
 impl Bus {
@@ -126,22 +127,21 @@ impl Bus {
         Ok(Maintenance {
             line,
             bus: Some(self),
+            released: true,
         })
     }
 }
 
 impl Maintenance {
-    /// For a line whose servos are not known yet. Broadcasts "torque off" first.
-    pub fn new(
-        transport: Box<dyn Transport>,
-        baud: u32,
-        clock: &dyn Clock,
-    ) -> Result<Self, MaintenanceError> {
+    /// For a line whose servos are not known yet. Torque stays as it is until something is written.
+    pub fn new(transport: Box<dyn Transport>, baud: u32) -> Result<Self, MaintenanceError> {
         let mut line = Line::new(transport, baud, SLACK);
         line.set_baud(baud)?;
-        let mut maintenance = Self { line, bus: None };
-        maintenance.release(clock)?;
-        Ok(maintenance)
+        Ok(Self {
+            line,
+            bus: None,
+            released: false,
+        })
     }
 
     /// The bus again, if it came from one; it must be armed anew.
@@ -164,7 +164,9 @@ impl Maintenance {
     /// Switches torque off by broadcast: every servo obeys, none answers.
     pub fn release(&mut self, clock: &dyn Clock) -> Result<(), MaintenanceError> {
         dynamixel2::write(self.line.packet(), BROADCAST_ID, TORQUE_ENABLE, &[0])?;
-        Ok(self.line.send(clock.now(), [], 0)?)
+        self.line.send(clock.now(), [], 0)?;
+        self.released = true;
+        Ok(())
     }
 
     /// Asks one servo who it is.
@@ -280,6 +282,9 @@ impl Maintenance {
         if field.eeprom && self.read_register(servo, id, name, clock)? == raw {
             return Ok(());
         }
+        if !self.released {
+            self.release(clock)?;
+        }
         self.ask(id, 0, clock, &|out| {
             dynamixel2::write(out, id, field.address, bytes)
         })?;
@@ -301,6 +306,9 @@ impl Maintenance {
 
     /// Restarts one servo, which ends a shutdown after a hardware error, and waits until it is back.
     pub fn reboot(&mut self, id: u8, clock: &dyn Clock) -> Result<(), MaintenanceError> {
+        if !self.released {
+            self.release(clock)?;
+        }
         self.ask(id, 0, clock, &|out| dynamixel2::reboot(out, id))?;
         clock.sleep_until(clock.now().after(REBOOT));
         self.ping(id, clock).map(|_| ())

@@ -8,7 +8,7 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender, TryRecvError, bounded};
 use device::clock::{Clock, Instant};
 use device::transport::Transport;
-use player::{Fault, Order, Player, PlayerConfig, Puppet, Report, State};
+use player::{Fault, Operator, Order, Player, PlayerConfig, Puppet, Report, State};
 
 use super::Pace;
 use crate::ports::Ports;
@@ -263,71 +263,72 @@ impl Threaded {
     }
 }
 
-/// The thread: runs the player until the end is asked for, pausing only to take a line back.
+/// The thread: runs the player until the end is asked for.
 fn live(mut player: Player, clock: &dyn Clock, inbox: &Receiver<Message>, seen: &Mutex<Seen>) {
     let period = player.config().period;
-    loop {
-        let mut returned: Option<(String, Box<dyn Transport>)> = None;
-        let mut ended = false;
-        let flow = std::cell::Cell::new(false);
-        player::run(
-            &mut player,
-            clock,
-            period,
-            &mut || match inbox.try_recv() {
-                Ok(Message::Order(order)) => Some(order),
-                Ok(Message::Reconnect(bus, line)) => {
-                    returned = Some((bus, line));
-                    flow.set(true);
-                    None
-                }
-                Ok(Message::End) | Err(TryRecvError::Disconnected) => {
-                    ended = true;
-                    flow.set(true);
-                    None
-                }
-                Err(TryRecvError::Empty) => None,
-            },
-            &mut |report| {
-                show(report, seen);
-                if flow.get() {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
-            },
-        );
-        if let Some((bus, line)) = returned
-            && let Err(error) = player.reconnect(&bus, line)
-        {
-            tracing::warn!("{error}");
+    let mut post = Post {
+        inbox,
+        seen,
+        returned: None,
+        ended: false,
+    };
+    player::run(&mut player, clock, period, &mut post);
+    show(&player, seen);
+}
+
+/// The rig as the player's thread knows it: an inbox, and a place to show reports.
+struct Post<'a> {
+    inbox: &'a Receiver<Message>,
+    seen: &'a Mutex<Seen>,
+    returned: Option<(String, Box<dyn Transport>)>,
+    ended: bool,
+}
+
+impl Operator for Post<'_> {
+    fn order(&mut self) -> Option<Order> {
+        match self.inbox.try_recv() {
+            Ok(Message::Order(order)) => Some(order),
+            // Given to the player before its next tick; what else waits comes with that one.
+            Ok(Message::Reconnect(bus, line)) => {
+                self.returned = Some((bus, line));
+                None
+            }
+            Ok(Message::End) | Err(TryRecvError::Disconnected) => {
+                self.ended = true;
+                None
+            }
+            Err(TryRecvError::Empty) => None,
         }
-        if ended {
-            show(player.report(), seen);
-            return;
+    }
+
+    fn returned_line(&mut self) -> Option<(String, Box<dyn Transport>)> {
+        self.returned.take()
+    }
+
+    fn seen(&mut self, player: &Player) -> ControlFlow<()> {
+        show(player, self.seen);
+        if self.ended {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
     }
 }
 
 /// Copies the report for others without waiting for them: a reader at this moment sees the one before.
-fn show(report: &Report, seen: &Mutex<Seen>) {
+fn show(player: &Player, seen: &Mutex<Seen>) {
     let Ok(mut seen) = seen.try_lock() else { return };
-    let joints = std::mem::take(&mut seen.report.joints);
+    let report = player.report();
+    let mut joints = std::mem::take(&mut seen.report.joints);
+    joints.clone_from(&report.joints);
     seen.report = Report {
         joints,
-        ..report_without_joints(report)
-    };
-    seen.report.joints.clone_from(&report.joints);
-    if report.arming_refused {
-        seen.refused += 1;
-    }
-}
-
-fn report_without_joints(report: &Report) -> Report {
-    Report {
-        joints: Vec::new(),
         state: report.state.clone(),
         rejected: report.rejected.clone(),
         ..*report
+    };
+    if report.arming_refused {
+        seen.refused += 1;
+        seen.refusals = player.refusals().map(ToString::to_string).collect();
     }
 }
