@@ -12,12 +12,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let show = rig::document::load(&show)?.show;
     let profiles = Arc::new(Profiles::builtin());
     let mut chapter = None;
-    let told = demo::run(DemoOptions { show, profiles, keys_max: None }, &mut |scene| {
-        if chapter.replace(scene.chapter) != Some(scene.chapter) {
-            eprintln!("{:7.2} s  {:?}", scene.snapshot.at_secs, scene.chapter);
-        }
-        ControlFlow::Continue(())
-    })?;
+    let told = demo::run(
+        DemoOptions {
+            show,
+            profiles,
+            keys_max: None,
+        },
+        &mut |scene| {
+            if chapter.replace(scene.chapter) != Some(scene.chapter) {
+                eprintln!("{:7.2} s  {:?}", scene.snapshot.at_secs, scene.chapter);
+            }
+            ControlFlow::Continue(())
+        },
+    )?;
     println!("{}", serde_json::to_string_pretty(&told.report)?);
     Ok(())
 }

@@ -27,7 +27,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let stop = Arc::new(AtomicBool::new(false));
     let there = Arc::clone(&stop);
     let thread = std::thread::spawn(move || {
-        serve::run(&mut device, &mut line, &MonotonicClock::new(), &there, &mut |_| ())
+        serve::run(
+            &mut device,
+            &mut line,
+            &MonotonicClock::new(),
+            &there,
+            &mut |_| (),
+        )
     });
     let mut port = serial::open(&path, BAUD)?;
     let clock = MonotonicClock::new();
@@ -49,7 +55,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let took_secs = clock.now().since(began).as_secs_f64() / f64::from(CYCLES);
     let wire_secs = (packet.len() + answer_bytes) as f64 * 10.0 / f64::from(BAUD);
-    println!("wire {:.3} ms, cycle {:.3} ms, ratio {:.3}", wire_secs * 1e3, took_secs * 1e3, wire_secs / took_secs);
+    println!(
+        "wire {:.3} ms, cycle {:.3} ms, ratio {:.3}",
+        wire_secs * 1e3,
+        took_secs * 1e3,
+        wire_secs / took_secs
+    );
     stop.store(true, Ordering::Relaxed);
     thread.join().expect("the server does not panic")?;
     Ok(())

@@ -111,7 +111,12 @@ impl Held {
     fn touch(self) -> Touch {
         match (self.at, self.tool) {
             (None, _) => Touch::Away,
-            (Some([x, y]), Tool::Puck) => Touch::Puck(Puck { x, y, buttons: self.buttons, wheel: 0 }),
+            (Some([x, y]), Tool::Puck) => Touch::Puck(Puck {
+                x,
+                y,
+                buttons: self.buttons,
+                wheel: 0,
+            }),
             (Some([x, y]), Tool::Pen) => Touch::Pen(Pen {
                 x,
                 y,
@@ -134,14 +139,29 @@ pub struct Hands {
 impl Hands {
     /// Hands beside a stand, touching nothing.
     pub fn new(stand: Stand) -> Self {
-        Self { stand, courses: Vec::new(), held: BTreeMap::new() }
+        Self {
+            stand,
+            courses: Vec::new(),
+            held: BTreeMap::new(),
+        }
     }
 
     /// Begins a movement `after_secs` from now. Movements go on side by side, as with two hands.
     pub fn begin(&mut self, device: &str, after_secs: f64, movement: Movement) {
-        let from = self.stand.clock().now().after(Duration::from_secs_f64(after_secs.max(0.0)));
+        let from = self
+            .stand
+            .clock()
+            .now()
+            .after(Duration::from_secs_f64(after_secs.max(0.0)));
         let device = device.to_owned();
-        self.courses.push(Course { device, movement, from, begun: false, origin: [0.0; 2], counts: 0 });
+        self.courses.push(Course {
+            device,
+            movement,
+            from,
+            begun: false,
+            origin: [0.0; 2],
+            counts: 0,
+        });
     }
 
     /// Whether a movement is under way or still to come.
@@ -189,12 +209,20 @@ impl Hands {
         let stand = self.stand.clone();
         let touch = |touch: Touch| stand.touch(&course.device, &touch);
         match course.movement {
-            Movement::Turn { control, by, over_secs } => {
+            Movement::Turn {
+                control,
+                by,
+                over_secs,
+            } => {
                 let per_turn = stand.counts_per_turn(&course.device)?.unwrap_or(1);
                 let share = share(passed_secs, over_secs);
                 let counts = (f64::from(by.counts(per_turn)) * ease(share)).round() as i32;
                 let step = counts - std::mem::replace(&mut course.counts, counts);
-                touch(Touch::Dial { control, by: Turn::Counts(step), over_us: 0 })?;
+                touch(Touch::Dial {
+                    control,
+                    by: Turn::Counts(step),
+                    over_us: 0,
+                })?;
                 Ok(share < 1.0)
             }
             Movement::Press { control, for_secs } => {
@@ -241,7 +269,10 @@ impl Hands {
                 down
             }
             Movement::Take(tool) => {
-                *held = Held { tool, ..Held::default() };
+                *held = Held {
+                    tool,
+                    ..Held::default()
+                };
                 false
             }
             Movement::Buttons(buttons) => {
@@ -253,7 +284,10 @@ impl Hands {
                 false
             }
             Movement::Away => {
-                *held = Held { tool: held.tool, ..Held::default() };
+                *held = Held {
+                    tool: held.tool,
+                    ..Held::default()
+                };
                 false
             }
             _ => false,
@@ -262,7 +296,11 @@ impl Hands {
 }
 
 fn share(passed_secs: f64, over_secs: f64) -> f64 {
-    if over_secs > 0.0 { (passed_secs / over_secs).clamp(0.0, 1.0) } else { 1.0 }
+    if over_secs > 0.0 {
+        (passed_secs / over_secs).clamp(0.0, 1.0)
+    } else {
+        1.0
+    }
 }
 
 fn ease(share: f64) -> f64 {

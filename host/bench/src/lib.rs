@@ -10,6 +10,7 @@
 pub mod demo;
 pub mod hands;
 pub mod replay;
+pub mod scenario;
 pub mod serve;
 pub mod stand;
 pub mod world;

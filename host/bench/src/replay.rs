@@ -35,7 +35,10 @@ impl Journal {
 
 impl Write for Journal {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).extend_from_slice(bytes);
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .extend_from_slice(bytes);
         Ok(bytes.len())
     }
 
@@ -82,7 +85,10 @@ pub fn replay(
     let clock = VirtualClock::new();
     let journal = Journal::new();
     let recorder = Recorder::new(Box::new(journal.clone()), script.show.clone());
-    let ports = Box::new(RecordingPorts::new(Box::new(script.take_ports()), recorder.clone()));
+    let ports = Box::new(RecordingPorts::new(
+        Box::new(script.take_ports()),
+        recorder.clone(),
+    ));
     let mut rig = start_rig(&clock, ports, show, profiles, equipment, Some(recorder))?;
     for step in &script.steps {
         clock.sleep_until(step.now);
@@ -90,5 +96,8 @@ pub fn replay(
     }
     rig.close();
     let replayed = Script::parse(&journal.text())?.ending;
-    Ok(Replay { recorded: script.ending, replayed })
+    Ok(Replay {
+        recorded: script.ending,
+        replayed,
+    })
 }

@@ -92,8 +92,16 @@ impl Equipment {
     ) -> Result<Option<PuppetSpec>, StandError> {
         let Some(key) = &self.puppet else { return Ok(None) };
         let buses = &profiles.puppet(key)?.buses;
-        let ports = buses.iter().map(|bus| (bus.name.clone(), format!("{SCHEME}{}", bus.name))).collect();
-        let mut spec = PuppetSpec { profile: key.clone(), ports, config: <_>::default(), pace };
+        let ports = buses
+            .iter()
+            .map(|bus| (bus.name.clone(), format!("{SCHEME}{}", bus.name)))
+            .collect();
+        let mut spec = PuppetSpec {
+            profile: key.clone(),
+            ports,
+            config: <_>::default(),
+            pace,
+        };
         spec.config.period = period;
         Ok(Some(spec))
     }
@@ -114,8 +122,16 @@ pub struct WorldOptions {
 impl WorldOptions {
     /// A show on the usual bench, with the puppet it names, without a journal.
     pub fn new(show: Show) -> Self {
-        let equipment = Equipment { puppet: show.puppet.clone(), ..Equipment::default() };
-        Self { show, profiles: Arc::new(Profiles::builtin()), equipment, journal: None }
+        let equipment = Equipment {
+            puppet: show.puppet.clone(),
+            ..Equipment::default()
+        };
+        Self {
+            show,
+            profiles: Arc::new(Profiles::builtin()),
+            equipment,
+            journal: None,
+        }
     }
 }
 
@@ -155,7 +171,12 @@ pub struct World {
 impl World {
     /// Sets everything up and takes the first step, at time zero.
     pub fn new(options: WorldOptions) -> Result<Self, WorldError> {
-        let WorldOptions { show, profiles, equipment, journal } = options;
+        let WorldOptions {
+            show,
+            profiles,
+            equipment,
+            journal,
+        } = options;
         let clock = VirtualClock::new();
         let stand = equipment.stand(Arc::new(clock.clone()), &profiles)?;
         let recorder = journal.map(|sink| Recorder::new(sink, BTreeMap::new()));
@@ -167,7 +188,14 @@ impl World {
         let mut rig = start_rig(&clock, ports, show, profiles, &equipment, recorder)?;
         let seen = rig.step(&mut std::iter::empty());
         let hands = Hands::new(stand.clone());
-        Ok(Self { clock, stand, hands, rig, seen, refused: Vec::new() })
+        Ok(Self {
+            clock,
+            stand,
+            hands,
+            rig,
+            seen,
+            refused: Vec::new(),
+        })
     }
 
     /// Moves time on by one period, lets hands do what is due, and steps the rig.
@@ -197,7 +225,11 @@ impl World {
                 return Ok(Arc::clone(&self.seen));
             }
         }
-        Err(Late { what: what.to_owned(), limit_secs, at_secs: self.secs() })
+        Err(Late {
+            what: what.to_owned(),
+            limit_secs,
+            at_secs: self.secs(),
+        })
     }
 
     /// Steps for a while.
@@ -254,7 +286,13 @@ pub(crate) fn start_rig(
     recorder: Option<Recorder>,
 ) -> Result<Rig, WorldError> {
     let puppet = equipment.puppet(&profiles, Pace::WithTheRig, PERIOD)?;
-    let options =
-        RigOptions { show, folder: None, profiles, inputs: equipment.inputs(), puppet, recorder };
+    let options = RigOptions {
+        show,
+        folder: None,
+        profiles,
+        inputs: equipment.inputs(),
+        puppet,
+        recorder,
+    };
     Ok(Rig::new(Arc::new(clock.clone()), ports, options)?)
 }

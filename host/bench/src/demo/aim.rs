@@ -31,15 +31,25 @@ pub(crate) fn aim(view: &ViewState, surface: &Surface, start: DVec3, length: f64
     let side = if wanted.z < 0.0 { Side::Far } else { Side::Near };
     let end = (from + length * wanted) * view.scale;
     let nearest = surface.script_from_cursor([end.x, end.y]);
-    let mut best = Aim { place: nearest, side, error_rad: f64::INFINITY };
+    let mut best = Aim {
+        place: nearest,
+        side,
+        error_rad: f64::INFINITY,
+    };
     for dx in -NEIGHBOURS..=NEIGHBOURS {
         for dy in -NEIGHBOURS..=NEIGHBOURS {
             let place = surface.on_the_grid(nearest, [dx, dy]);
-            let [x, y] = surface.cursor_from_script(place).map(|cursor| cursor / view.scale);
+            let [x, y] = surface
+                .cursor_from_script(place)
+                .map(|cursor| cursor / view.scale);
             let got = pointed((x - from.x) / length, (y - from.y) / length, side);
             let error_rad = got.angle_between(wanted);
             if error_rad < best.error_rad {
-                best = Aim { place, error_rad, ..best };
+                best = Aim {
+                    place,
+                    error_rad,
+                    ..best
+                };
             }
         }
     }
@@ -65,7 +75,12 @@ mod tests {
     fn every_direction_can_be_pointed_at_within_a_few_degrees() {
         let profiles = Profiles::builtin();
         let surface = Surface::from(profiles.tablet("graphire-serial").expect("built in"));
-        let view = ViewState { azimuth_rad: 0.4, elevation_rad: -0.2, scale: 0.8, centre: DVec3::Y };
+        let view = ViewState {
+            azimuth_rad: 0.4,
+            elevation_rad: -0.2,
+            scale: 0.8,
+            centre: DVec3::Y,
+        };
         for i in 0..500 {
             // Points spread over the sphere by the golden angle.
             let z = 1.0 - 2.0 * (f64::from(i) + 0.5) / 500.0;

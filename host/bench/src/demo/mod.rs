@@ -137,15 +137,26 @@ pub fn run(
 ) -> Result<Demo, DemoError> {
     let targets = pose::targets(&options)?;
     let show = pose::stripped(&options.show, &targets);
-    let mut equipment = Equipment { puppet: show.puppet.clone(), ..Equipment::default() };
+    let mut equipment = Equipment {
+        puppet: show.puppet.clone(),
+        ..Equipment::default()
+    };
     if equipment.puppet.is_none() {
         return Err(DemoError::Show { missing: "a puppet" });
     }
-    let hanging: BTreeMap<_, _> = HANGING.iter().map(|(joint, rad)| ((*joint).to_owned(), *rad)).collect();
+    let hanging: BTreeMap<_, _> = HANGING
+        .iter()
+        .map(|(joint, rad)| ((*joint).to_owned(), *rad))
+        .collect();
     // Another puppet than the shipped one has other joints: those it lacks begin at 0.
-    let profile = options.profiles.puppet(equipment.puppet.as_deref().unwrap_or_default());
+    let profile = options
+        .profiles
+        .puppet(equipment.puppet.as_deref().unwrap_or_default());
     let profile = profile.map_err(|error| WorldError::Stand(error.into()))?;
-    equipment.plan.start_rad = hanging.into_iter().filter(|(joint, _)| profile.joint(joint).is_some()).collect();
+    equipment.plan.start_rad = hanging
+        .into_iter()
+        .filter(|(joint, _)| profile.joint(joint).is_some())
+        .collect();
     equipment.plan.sag_rad_per_s = Some(SAG_RAD_PER_S);
     let joints: Vec<String> = profile.joints().map(|joint| joint.name.clone()).collect();
     let journal = Journal::new();
@@ -163,7 +174,13 @@ pub fn run(
         journal_replay_identical: replayed.is_identical(),
         ..told.report
     };
-    Ok(Demo { report, rows: told.rows, joints, journal: text, show: told.show })
+    Ok(Demo {
+        report,
+        rows: told.rows,
+        joints,
+        journal: text,
+        show: told.show,
+    })
 }
 
 #[cfg(test)]

@@ -36,7 +36,10 @@ pub(super) fn targets(options: &DemoOptions) -> Result<Vec<Target>, DemoError> {
     if options.show.figure.is_none() {
         return Err(DemoError::Show { missing: "a figure" });
     }
-    let clip = options.show.current_clip().ok_or(DemoError::Show { missing: "a clip" })?;
+    let clip = options
+        .show
+        .current_clip()
+        .ok_or(DemoError::Show { missing: "a clip" })?;
     let targets: Vec<Target> = clip
         .keys
         .iter()
@@ -48,12 +51,17 @@ pub(super) fn targets(options: &DemoOptions) -> Result<Vec<Target>, DemoError> {
                 .pose
                 .links
                 .iter()
-                .map(|link| LinkTarget { direction: link.direction, twist_rad: link.twist_rad })
+                .map(|link| LinkTarget {
+                    direction: link.direction,
+                    twist_rad: link.twist_rad,
+                })
                 .collect(),
         })
         .collect();
     if targets.len() < 2 {
-        return Err(DemoError::Show { missing: "a clip of at least two keys" });
+        return Err(DemoError::Show {
+            missing: "a clip of at least two keys",
+        });
     }
     Ok(targets)
 }
@@ -62,10 +70,17 @@ pub(super) fn targets(options: &DemoOptions) -> Result<Vec<Target>, DemoError> {
 pub(super) fn stripped(show: &Show, targets: &[Target]) -> Show {
     let mut bare = show.clone();
     if let Some(clip) = show.current_clip() {
-        let empty = ClipDoc { keys: Vec::new(), coefficient_edits: Vec::new(), ..ClipDoc::clone(clip) };
+        let empty = ClipDoc {
+            keys: Vec::new(),
+            coefficient_edits: Vec::new(),
+            ..ClipDoc::clone(clip)
+        };
         bare.clips = BTreeMap::from([(show.clip.clone(), Arc::new(empty))]);
     }
-    bare.networks.push(Arc::new(NetworkFile { name: "more-keys".to_owned(), text: MORE_KEYS.to_owned() }));
+    bare.networks.push(Arc::new(NetworkFile {
+        name: "more-keys".to_owned(),
+        text: MORE_KEYS.to_owned(),
+    }));
     bare.view = view(show, targets.len());
     bare
 }
@@ -79,5 +94,8 @@ fn view(show: &Show, keys: usize) -> Option<ViewState> {
         all.append(&mut placed);
     }
     let whole = ViewState::holding(&all);
-    Some(ViewState { scale: whole.scale * NEARER, ..whole })
+    Some(ViewState {
+        scale: whole.scale * NEARER,
+        ..whole
+    })
 }

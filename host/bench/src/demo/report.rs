@@ -74,7 +74,11 @@ pub fn csv(rows: &[ServoRow], joints: &[String]) -> String {
     for row in rows {
         let joint = joints.get(row.joint).map_or("", String::as_str);
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{:.3},{joint},{:.6},{:.6}", row.t_secs, row.goal_rad, row.measured_rad);
+        let _ = writeln!(
+            text,
+            "{:.3},{joint},{:.6},{:.6}",
+            row.t_secs, row.goal_rad, row.measured_rad
+        );
     }
     text
 }

@@ -77,7 +77,10 @@ impl<'a> Story<'a> {
         world: World,
         tell: &'a mut dyn FnMut(Scene<'_>) -> ControlFlow<()>,
     ) -> Result<Self, DemoError> {
-        let surface = world.stand().surface(TABLET)?.ok_or(DemoError::Show { missing: "a tablet" })?;
+        let surface = world
+            .stand()
+            .surface(TABLET)?
+            .ok_or(DemoError::Show { missing: "a tablet" })?;
         world.stand().keep_traffic();
         Ok(Self {
             world,
@@ -107,21 +110,34 @@ impl<'a> Story<'a> {
             keys_entered: self.keys,
             stale_reads: self.watch.stale_reads,
             reads: self.watch.reads,
-            pose_error_deg: self.errors_rad.iter().fold(0.0, |a: f64, &b| a.max(b)).to_degrees(),
+            pose_error_deg: self
+                .errors_rad
+                .iter()
+                .fold(0.0, |a: f64, &b| a.max(b))
+                .to_degrees(),
             pose_error_mean_deg: (sum_rad / self.errors_rad.len().max(1) as f64).to_degrees(),
             servo: self.watch.report(&joints),
             virtual_secs,
             ..DemoReport::default()
         };
-        Ok(Told { report, rows: self.watch.rows, show })
+        Ok(Told {
+            report,
+            rows: self.watch.rows,
+            show,
+        })
     }
 
     fn all(&mut self, targets: &[Target]) -> Result<(), DemoError> {
         self.until("dial box and tablet answering", 3.0, |seen| {
-            seen.devices.iter().all(|device| device.health == DeviceHealth::Present)
+            seen.devices
+                .iter()
+                .all(|device| device.health == DeviceHealth::Present)
         })?;
         for (key, target) in targets.iter().enumerate() {
-            self.chapter = Chapter::Posing { key, of: targets.len() };
+            self.chapter = Chapter::Posing {
+                key,
+                of: targets.len(),
+            };
             self.enter(target)?;
         }
         self.chapter = Chapter::Retiming;
@@ -130,7 +146,9 @@ impl<'a> Story<'a> {
         self.press(key::PLAY)?;
         self.until("the clip playing", PROMPT_SECS, |seen| seen.transport.playing)?;
         let last_secs = targets.last().map_or(0.0, |target| target.secs);
-        self.until("the clip's end", last_secs + PROMPT_SECS, |seen| !seen.transport.playing)?;
+        self.until("the clip's end", last_secs + PROMPT_SECS, |seen| {
+            !seen.transport.playing
+        })?;
         self.go_to(0.0)?;
         self.perform(last_secs)
     }
@@ -141,7 +159,11 @@ impl<'a> Story<'a> {
         let seen = Arc::clone(self.world.seen());
         self.watch.step(&seen, self.world.stand())?;
         let keys = std::mem::replace(&mut self.keys, seen.keys.len());
-        let scene = Scene { chapter: self.chapter, key_stored: seen.keys.len() > keys, snapshot: &seen };
+        let scene = Scene {
+            chapter: self.chapter,
+            key_stored: seen.keys.len() > keys,
+            snapshot: &seen,
+        };
         if (self.tell)(scene).is_break() {
             self.stopped = true;
             return Err(DemoError::Stopped { torque_off: false });
@@ -166,7 +188,12 @@ impl<'a> Story<'a> {
             }
             if self.world.secs() >= end_secs {
                 let (what, at_secs) = (what.to_owned(), self.world.secs());
-                return Err(Late { what, limit_secs, at_secs }.into());
+                return Err(Late {
+                    what,
+                    limit_secs,
+                    at_secs,
+                }
+                .into());
             }
         }
     }
@@ -188,7 +215,14 @@ impl<'a> Story<'a> {
     }
 
     fn press(&mut self, control: u8) -> Result<(), DemoError> {
-        self.world.hands().begin(DIAL_BOX, 0.0, Movement::Press { control, for_secs: PRESS_SECS });
+        self.world.hands().begin(
+            DIAL_BOX,
+            0.0,
+            Movement::Press {
+                control,
+                for_secs: PRESS_SECS,
+            },
+        );
         self.wait(PRESS_SECS)
     }
 
@@ -200,7 +234,15 @@ impl<'a> Story<'a> {
         // A wrist does most of a turn in half a second and needs several reaches for more.
         let over_secs = (0.15 + 0.35 * turns.abs()).min(1.0);
         let by = Turn::Turns(turns);
-        self.world.hands().begin(DIAL_BOX, 0.0, Movement::Turn { control, by, over_secs });
+        self.world.hands().begin(
+            DIAL_BOX,
+            0.0,
+            Movement::Turn {
+                control,
+                by,
+                over_secs,
+            },
+        );
         over_secs
     }
 
@@ -216,7 +258,9 @@ impl<'a> Story<'a> {
         self.go_to(target.secs)?;
         self.place_root(target)?;
         self.press(key::FIRST_LINK)?;
-        self.until("the first link being selected", PROMPT_SECS, |seen| selected(seen) == Some(0))?;
+        self.until("the first link being selected", PROMPT_SECS, |seen| {
+            selected(seen) == Some(0)
+        })?;
         for link in 0..target.links.len() {
             self.place_link(target, link)?;
         }
@@ -226,7 +270,12 @@ impl<'a> Story<'a> {
     }
 
     fn place_root(&mut self, target: &Target) -> Result<(), DemoError> {
-        let now = self.world.seen().figure.as_ref().map_or(target.root, |figure| figure.pose.root);
+        let now = self
+            .world
+            .seen()
+            .figure
+            .as_ref()
+            .map_or(target.root, |figure| figure.pose.root);
         let turns = ((target.root - now) / ROOT_M_PER_TURN).to_array();
         if turns.iter().all(|turns| turns.abs() < WORTH_TURNING) {
             return Ok(());
@@ -242,17 +291,32 @@ impl<'a> Story<'a> {
     /// The left hand twists while the right one moves the puck; then the button.
     fn place_link(&mut self, target: &Target, link: usize) -> Result<(), DemoError> {
         let seen = Arc::clone(self.world.seen());
-        let Some(figure) = &seen.figure else { return Err(DemoError::Show { missing: "a figure" }) };
+        let Some(figure) = &seen.figure else {
+            return Err(DemoError::Show { missing: "a figure" });
+        };
         let wanted = target.links[link];
         let (pose, placed) = (figure.pose.links[link], figure.placed[link]);
         let twist_turns = (wanted.twist_rad - pose.twist_rad) / std::f64::consts::TAU;
         self.turn(dial::TWIST, twist_turns);
-        let found = aim(&seen.view, &self.surface, placed.start, pose.length, wanted.direction);
+        let found = aim(
+            &seen.view,
+            &self.surface,
+            placed.start,
+            pose.length,
+            wanted.direction,
+        );
         let here = self.world.hands().tool_at(TABLET).unwrap_or([0.0; 2]);
         let far = (found.place[0] - here[0]).hypot(found.place[1] - here[1]);
         // Longer ways take longer, but less than in proportion (Fitts).
         let over_secs = 0.10 + 0.16 * far.sqrt();
-        self.world.hands().begin(TABLET, 0.0, Movement::Glide { to: found.place, over_secs });
+        self.world.hands().begin(
+            TABLET,
+            0.0,
+            Movement::Glide {
+                to: found.place,
+                over_secs,
+            },
+        );
         while self.world.hands().are_busy() {
             self.step()?;
         }
@@ -263,21 +327,30 @@ impl<'a> Story<'a> {
         let last = link + 1 == target.links.len();
         let click = if last {
             // Letting the button go over the tablet would point the same link again, on the near side.
-            Movement::ClickAway { button, for_secs: PRESS_SECS }
+            Movement::ClickAway {
+                button,
+                for_secs: PRESS_SECS,
+            }
         } else {
-            Movement::Click { button, for_secs: PRESS_SECS }
+            Movement::Click {
+                button,
+                for_secs: PRESS_SECS,
+            }
         };
         self.world.hands().begin(TABLET, 0.0, click);
         if last {
             return self.rest();
         }
-        self.until("the next link being selected", PROMPT_SECS, |seen| selected(seen) == Some(link + 1))
+        self.until("the next link being selected", PROMPT_SECS, |seen| {
+            selected(seen) == Some(link + 1)
+        })
     }
 
     fn compare(&mut self, target: &Target) {
         if let Some(figure) = &self.world.seen().figure {
             let pairs = figure.pose.links.iter().zip(&target.links);
-            self.errors_rad.extend(pairs.map(|(got, wanted)| got.direction.angle_between(wanted.direction)));
+            self.errors_rad
+                .extend(pairs.map(|(got, wanted)| got.direction.angle_between(wanted.direction)));
         }
     }
 
@@ -294,19 +367,27 @@ impl<'a> Story<'a> {
     fn perform(&mut self, last_secs: f64) -> Result<(), DemoError> {
         self.chapter = Chapter::Arming;
         self.press(key::ARM)?;
-        self.until("the puppet being armed", 5.0, |seen| state(seen) == Some(PuppetState::Holding))?;
+        self.until("the puppet being armed", 5.0, |seen| {
+            state(seen) == Some(PuppetState::Holding)
+        })?;
         self.wait(0.3)?;
         self.chapter = Chapter::Performing;
         self.press(key::PERFORM)?;
-        self.until("the puppet playing", 2.0, |seen| state(seen) == Some(PuppetState::Playing))?;
+        self.until("the puppet playing", 2.0, |seen| {
+            state(seen) == Some(PuppetState::Playing)
+        })?;
         // The approach takes a few seconds and is not counted by the clip's time.
         let limit_secs = last_secs + 15.0;
-        self.until("the clip's end", limit_secs, |seen| state(seen) != Some(PuppetState::Playing))?;
+        self.until("the clip's end", limit_secs, |seen| {
+            state(seen) != Some(PuppetState::Playing)
+        })?;
         self.chapter = Chapter::Ending;
         self.wait(0.7)?;
         self.press(key::RELEASE)?;
         let loose = |seen: &Snapshot| {
-            seen.puppet.as_ref().is_some_and(|p| p.state == PuppetState::Released && !p.torque)
+            seen.puppet
+                .as_ref()
+                .is_some_and(|p| p.state == PuppetState::Released && !p.torque)
         };
         self.until("torque being off", 5.0, loose)?;
         self.wait(1.0)

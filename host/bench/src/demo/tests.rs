@@ -7,7 +7,11 @@ fn salute() -> Show {
 }
 
 fn options(keys_max: usize) -> DemoOptions {
-    DemoOptions { show: salute(), profiles: Arc::new(Profiles::builtin()), keys_max: Some(keys_max) }
+    DemoOptions {
+        show: salute(),
+        profiles: Arc::new(Profiles::builtin()),
+        keys_max: Some(keys_max),
+    }
 }
 
 #[test]
@@ -24,7 +28,11 @@ fn two_keys_are_entered_and_performed() {
     assert_eq!(report.stale_reads, 0);
     assert!(report.reads > 1000);
     assert!(report.pose_error_deg < 6.0, "{}", report.pose_error_deg);
-    assert!(report.servo.start_jump_deg < 0.1, "{}", report.servo.start_jump_deg);
+    assert!(
+        report.servo.start_jump_deg < 0.1,
+        "{}",
+        report.servo.start_jump_deg
+    );
     assert!(report.servo.max_speed_ratio <= 1.0 && report.servo.max_accel_ratio <= 1.0);
     assert!(csv(&demo.rows, &demo.joints).starts_with("t_secs,joint,goal_rad,measured_rad\n"));
 }
@@ -34,8 +42,15 @@ fn a_listener_may_stop_it_safely() {
     let mut steps = 0;
     let error = run(options(2), &mut |_| {
         steps += 1;
-        if steps < 50 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        if steps < 50 {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
     })
     .expect_err("stopped");
-    assert!(matches!(error, DemoError::Stopped { torque_off: true }), "{error}");
+    assert!(
+        matches!(error, DemoError::Stopped { torque_off: true }),
+        "{error}"
+    );
 }

@@ -59,7 +59,12 @@ impl Watch {
                 (true, Some(goal_rad)) => {
                     self.judge_goal(place, seen.at_secs, goal_rad, truth, puppet.goals_sent);
                 }
-                _ => self.courses[place] = Course { measured_us: self.courses[place].measured_us, ..Course::default() },
+                _ => {
+                    self.courses[place] = Course {
+                        measured_us: self.courses[place].measured_us,
+                        ..Course::default()
+                    }
+                }
             }
         }
         self.note_rows(seen.at_secs, puppet);
@@ -88,7 +93,11 @@ impl Watch {
         let age_ns = (age_secs * 1e9).round() as u64;
         let measured_us = now.as_nanos().saturating_sub(age_ns) / 1000;
         let before_us = std::mem::replace(&mut self.courses[place].measured_us, measured_us);
-        let Some(wire) = self.wires.get(&truth.bus).filter(|_| measured_us > before_us + ROUNDING_US) else {
+        let Some(wire) = self
+            .wires
+            .get(&truth.bus)
+            .filter(|_| measured_us > before_us + ROUNDING_US)
+        else {
             return;
         };
         // What is written in this very step was not yet asked when its readings were taken in.
@@ -109,7 +118,12 @@ impl Watch {
         let course = &mut self.courses[place];
         let Some(before_secs) = course.at_secs else {
             self.start_jump_rad = self.start_jump_rad.max((goal_rad - truth.position_rad).abs());
-            *course = Course { at_secs: Some(at_secs), goal_rad, speed_rad_per_s: None, ..*course };
+            *course = Course {
+                at_secs: Some(at_secs),
+                goal_rad,
+                speed_rad_per_s: None,
+                ..*course
+            };
             return;
         };
         // Between cycles that did not go out there is no rate of change to speak of.
@@ -121,7 +135,12 @@ impl Watch {
         self.speed_ratio = self.speed_ratio.max(speed.abs() / truth.speed_max_rad_per_s);
         let accel = (speed - course.speed_rad_per_s.unwrap_or(0.0)).abs() / dt_secs;
         self.accel_ratio = self.accel_ratio.max(accel / truth.accel_max_rad_per_s2);
-        *course = Course { at_secs: Some(at_secs), goal_rad, speed_rad_per_s: Some(speed), ..*course };
+        *course = Course {
+            at_secs: Some(at_secs),
+            goal_rad,
+            speed_rad_per_s: Some(speed),
+            ..*course
+        };
     }
 
     fn note_rows(&mut self, t_secs: f64, puppet: &PuppetView) {
@@ -131,7 +150,12 @@ impl Watch {
         for (joint, view) in puppet.joints.iter().enumerate() {
             if let (Some(goal_rad), Some(measured_rad)) = (view.goal_rad, view.measured_rad) {
                 self.squares += (goal_rad - measured_rad).powi(2);
-                self.rows.push(ServoRow { t_secs, joint, goal_rad, measured_rad });
+                self.rows.push(ServoRow {
+                    t_secs,
+                    joint,
+                    goal_rad,
+                    measured_rad,
+                });
             }
         }
     }

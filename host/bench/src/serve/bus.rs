@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use device_profiles::{ProfileError, Profiles};
-use firmware_sim::dynamixel::{AddError, Adapter, BusOptions, Unit, WireTime};
+use firmware_sim::dynamixel::{Adapter, AddError, BusOptions, Unit, WireTime};
 use firmware_sim::{Fault, ServoBus};
 
 use super::{ServeError, Served};
@@ -46,15 +46,24 @@ impl ServoSpec {
     }
 
     fn one(text: &str) -> Result<Self, ServoSpecError> {
-        let wrong = || ServoSpecError::Text { text: text.to_owned() };
-        let (model, ids) = text.rsplit_once(':').filter(|(model, _)| !model.is_empty()).ok_or_else(wrong)?;
+        let wrong = || ServoSpecError::Text {
+            text: text.to_owned(),
+        };
+        let (model, ids) = text
+            .rsplit_once(':')
+            .filter(|(model, _)| !model.is_empty())
+            .ok_or_else(wrong)?;
         let (first, last) = ids.split_once('-').unwrap_or((ids, ids));
         let id = |text: &str| text.parse().ok().filter(|&id: &u8| id <= 252).ok_or_else(wrong);
         let (first, last) = (id(first)?, id(last)?);
         if first > last {
             return Err(wrong());
         }
-        Ok(Self { model: model.to_owned(), first, last })
+        Ok(Self {
+            model: model.to_owned(),
+            first,
+            last,
+        })
     }
 }
 
@@ -133,8 +142,16 @@ impl Eeprom {
     /// Brings back what the folder holds. Servos without a file are as they come out of the box.
     fn restore(folder: PathBuf, bus: &mut ServoBus) -> Result<Self, ServeError> {
         std::fs::create_dir_all(&folder).map_err(|error| ServeError::io(folder.clone(), &error))?;
-        let ids: Vec<u8> = bus.servos().iter().map(firmware_sim::dynamixel::Servo::id).collect();
-        let mut eeprom = Self { folder, ids, kept: Vec::new() };
+        let ids: Vec<u8> = bus
+            .servos()
+            .iter()
+            .map(firmware_sim::dynamixel::Servo::id)
+            .collect();
+        let mut eeprom = Self {
+            folder,
+            ids,
+            kept: Vec::new(),
+        };
         let mut found = Vec::new();
         for &id in &eeprom.ids {
             let path = eeprom.path(id);
@@ -145,7 +162,10 @@ impl Eeprom {
             }
         }
         for (id, path, bytes) in found {
-            if !bus.servo_mut(id).is_some_and(|servo| servo.restore_eeprom(&bytes)) {
+            if !bus
+                .servo_mut(id)
+                .is_some_and(|servo| servo.restore_eeprom(&bytes))
+            {
                 let why = format!(
                     "{} bytes are not the memory of servo {id}'s model; delete the file, or name the model it is of",
                     bytes.len()

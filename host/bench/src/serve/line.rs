@@ -46,7 +46,9 @@ impl ServeLine {
             }
             Place::Tcp(address) => {
                 let listener = tcp::listen(address)?;
-                let bound = listener.local_addr().map_or_else(|_| address.clone(), |bound| bound.to_string());
+                let bound = listener
+                    .local_addr()
+                    .map_or_else(|_| address.clone(), |bound| bound.to_string());
                 (End::Tcp(listener, None), format!("tcp:{bound}"))
             }
         };

@@ -54,7 +54,10 @@ pub enum ServeError {
 
 impl ServeError {
     fn io(path: PathBuf, error: &io::Error) -> Self {
-        Self::Eeprom { path, why: error.to_string() }
+        Self::Eeprom {
+            path,
+            why: error.to_string(),
+        }
     }
 }
 

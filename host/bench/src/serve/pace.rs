@@ -36,7 +36,13 @@ impl Pace {
     }
 
     /// Sleeps until `wakes_us`, or until the host's bytes have arrived, or until it writes more.
-    pub(super) fn rest(&self, line: &mut ServeLine, clock: &dyn Clock, began: Instant, wakes_us: Option<u64>) {
+    pub(super) fn rest(
+        &self,
+        line: &mut ServeLine,
+        clock: &dyn Clock,
+        began: Instant,
+        wakes_us: Option<u64>,
+    ) {
         let now_us = clock.now().since(began).as_micros() as u64;
         let arrival_us = (self.host_done_us > now_us).then_some(self.host_done_us);
         let due_us = wakes_us.into_iter().chain(arrival_us).min();

@@ -29,7 +29,10 @@ fn serve(mut device: Served, place: &Place, with: impl FnOnce(&str)) -> Vec<(u64
     with(&path);
     stop.store(true, Ordering::Relaxed);
     thread.join().expect("ends").expect("without an error");
-    Arc::into_inner(shown).expect("alone").into_inner().expect("whole")
+    Arc::into_inner(shown)
+        .expect("alone")
+        .into_inner()
+        .expect("whole")
 }
 
 fn open(path: &str, baud: u32) -> Box<dyn Transport> {
@@ -61,7 +64,10 @@ fn a_bus_answers_on_a_terminal_and_not_before_its_time() {
         let mut port = open(path, 1_000_000);
         port.write(PING).expect("writes");
         let (heard, took) = hear(&mut *port, 14);
-        assert_eq!(heard.get(..12).expect("a status"), [255, 255, 253, 0, 1, 7, 0, 0x55, 0, 36, 4, heard[11]]);
+        assert_eq!(
+            heard.get(..12).expect("a status"),
+            [255, 255, 253, 0, 1, 7, 0, 0x55, 0, 36, 4, heard[11]]
+        );
         // 24 bytes of 10 us and a return delay of 500 us.
         assert!(took >= Duration::from_micros(740), "{took:?}");
     });
@@ -101,12 +107,21 @@ fn memories_outlive_the_program() {
         port.write(&write).expect("writes");
         assert_eq!(hear(&mut *port, 11).0.len(), 11);
     });
-    let Served::Bus(again, ..) = bus(Some(folder.path())) else { panic!("a bus") };
-    assert_eq!(again.servo(1).expect("there").register("Return Delay Time"), Some(5));
+    let Served::Bus(again, ..) = bus(Some(folder.path())) else {
+        panic!("a bus")
+    };
+    assert_eq!(
+        again.servo(1).expect("there").register("Return Delay Time"),
+        Some(5)
+    );
     std::fs::write(folder.path().join("servo-2.eeprom"), [1, 2, 3]).expect("writes");
     let mut plan = BusPlan::new(ServoSpec::parse("XL430-W250:2").expect("reads"));
     plan.eeprom = Some(folder.path().to_owned());
-    let error = plan.build(&Profiles::builtin()).err().expect("three bytes are no memory").to_string();
+    let error = plan
+        .build(&Profiles::builtin())
+        .err()
+        .expect("three bytes are no memory")
+        .to_string();
     assert!(error.contains("servo-2.eeprom: 3 bytes are not"), "{error}");
 }
 
@@ -114,14 +129,21 @@ fn memories_outlive_the_program() {
 fn firmware_crc(bytes: &[u8]) -> u16 {
     bytes.iter().fold(0, |crc: u16, &byte| {
         (0..8).fold(crc ^ u16::from(byte) << 8, |crc, _| {
-            if crc & 0x8000 == 0 { crc << 1 } else { crc << 1 ^ 0x8005 }
+            if crc & 0x8000 == 0 {
+                crc << 1
+            } else {
+                crc << 1 ^ 0x8005
+            }
         })
     })
 }
 
 #[test]
 fn a_dial_box_plays_its_script_and_tells_what_it_is_shown() {
-    let options = Options { labels: true, ..Options::default() };
+    let options = Options {
+        labels: true,
+        ..Options::default()
+    };
     let mut device = Served::DialBox(Box::new(SgiDialBox::new(options)));
     let script = firmware_sim::Script::parse(firmware_sim::script::Device::DialBox, "at 0.05 dial 2 +5\n");
     device.play(&script.expect("reads"));
@@ -133,17 +155,36 @@ fn a_dial_box_plays_its_script_and_tells_what_it_is_shown() {
         port.write(b"\x50\x00\xFF\x61\x02X-Trans ").expect("writes");
         assert_eq!(hear(&mut *port, 3).0, [0x32, 0, 5]);
     });
-    assert!(shown.iter().any(|(_, output)| {
-        *output == Output::Label { control: 2, text: "X-Trans ".into() }
-    }), "{shown:?}");
+    assert!(
+        shown.iter().any(|(_, output)| {
+            *output
+                == Output::Label {
+                    control: 2,
+                    text: "X-Trans ".into(),
+                }
+        }),
+        "{shown:?}"
+    );
 }
 
 #[test]
 fn servo_lists_are_read() {
-    let spec = |model: &str, first, last| ServoSpec { model: model.into(), first, last };
+    let spec = |model: &str, first, last| ServoSpec {
+        model: model.into(),
+        first,
+        last,
+    };
     let good = ServoSpec::parse("XL430-W250:1-20, XL330-M288:7").expect("reads");
     assert_eq!(good, [spec("XL430-W250", 1, 20), spec("XL330-M288", 7, 7)]);
-    for bad in ["", "XL430-W250", "XL430-W250:", ":1", "XL430-W250:5-1", "XL430-W250:1-253", "XL430-W250:x"] {
+    for bad in [
+        "",
+        "XL430-W250",
+        "XL430-W250:",
+        ":1",
+        "XL430-W250:5-1",
+        "XL430-W250:1-253",
+        "XL430-W250:x",
+    ] {
         let error = ServoSpec::parse(bad).expect_err(bad).to_string();
         assert!(error.contains("expected MODEL:ID"), "{error}");
     }

@@ -66,7 +66,11 @@ pub struct StandBuilder {
 
 impl StandBuilder {
     pub(super) fn new(clock: Arc<dyn Clock>) -> Self {
-        Self { clock, seats: BTreeMap::new(), mounts: Vec::new() }
+        Self {
+            clock,
+            seats: BTreeMap::new(),
+            mounts: Vec::new(),
+        }
     }
 
     /// Adds a dial box as `sim:NAME`.
@@ -94,24 +98,46 @@ impl StandBuilder {
             return Err(StandError::NoSuchJoint {
                 joint: joint.clone(),
                 puppet: puppet.name.clone(),
-                known: puppet.joints().map(|j| j.name.as_str()).collect::<Vec<_>>().join(", "),
+                known: puppet
+                    .joints()
+                    .map(|j| j.name.as_str())
+                    .collect::<Vec<_>>()
+                    .join(", "),
             });
         }
         for line in &puppet.buses {
-            let options = BusOptions { baud: line.baud, seed: plan.seed, ..BusOptions::default() };
+            let options = BusOptions {
+                baud: line.baud,
+                seed: plan.seed,
+                ..BusOptions::default()
+            };
             let mut bus = ServoBus::new(options);
             for joint in puppet.joints_on(&line.name) {
                 let servo = profiles.servo(&joint.model)?;
                 let mount = Mount::new(joint, servo);
                 let start_rad = mount.shaft_rad(plan.start_rad.get(&joint.name).copied().unwrap_or(0.0));
-                let unit = Unit { start_rad, ..Unit::new(joint.id) };
+                let unit = Unit {
+                    start_rad,
+                    ..Unit::new(joint.id)
+                };
                 let added = bus.add(servo, unit);
-                added.map_err(|source| StandError::Servo { bus: line.name.clone(), source })?;
-                let sag = plan.sag_rad_per_s.map(|rad_per_s| Sag { to_rad: start_rad, rad_per_s });
+                added.map_err(|source| StandError::Servo {
+                    bus: line.name.clone(),
+                    source,
+                })?;
+                let sag = plan.sag_rad_per_s.map(|rad_per_s| Sag {
+                    to_rad: start_rad,
+                    rad_per_s,
+                });
                 bus.set_sag(0, joint.id, sag);
             }
             let words = format!("{}, bus {}", puppet.name, line.name);
-            self = self.seat(&line.name, &words, vec![puppet.key.clone()], Simulated::Bus(Box::new(bus)))?;
+            self = self.seat(
+                &line.name,
+                &words,
+                vec![puppet.key.clone()],
+                Simulated::Bus(Box::new(bus)),
+            )?;
         }
         for joint in puppet.joints() {
             self.mounts.push(Mount::new(joint, profiles.servo(&joint.model)?));
@@ -135,12 +161,18 @@ impl StandBuilder {
         let seat = Seat::new(name, format!("simulated: {what}"), matches, device);
         match self.seats.insert(name.to_owned(), Arc::new(Mutex::new(seat))) {
             None => Ok(self),
-            Some(_) => Err(StandError::Twice { name: name.to_owned() }),
+            Some(_) => Err(StandError::Twice {
+                name: name.to_owned(),
+            }),
         }
     }
 
     /// The bench, ready.
     pub fn build(self) -> Stand {
-        Stand { clock: self.clock, seats: Arc::new(self.seats), mounts: Arc::new(self.mounts) }
+        Stand {
+            clock: self.clock,
+            seats: Arc::new(self.seats),
+            mounts: Arc::new(self.mounts),
+        }
     }
 }

@@ -132,7 +132,10 @@ impl Stand {
             Touch::PowerCycle => "switch".to_owned(),
             Touch::Pen(_) | Touch::Puck(_) | Touch::Away => "surface".to_owned(),
         };
-        Err(HandError::NoSuchControl { name: name.to_owned(), control })
+        Err(HandError::NoSuchControl {
+            name: name.to_owned(),
+            control,
+        })
     }
 
     /// Takes a device's cable out of the host (`false`) or puts it back. The device keeps its power.
@@ -191,13 +194,16 @@ impl Stand {
 
     /// Names of the buses that have joints of the puppet, in alphabetical order.
     pub fn buses(&self) -> impl Iterator<Item = &str> {
-        self.names().filter(|name| self.mounts.iter().any(|mount| mount.bus == **name))
+        self.names()
+            .filter(|name| self.mounts.iter().any(|mount| mount.bus == **name))
     }
 
     /// Brings a fault onto a bus, named as in `docs/cli.md`; its times count from now.
     pub fn fault(&self, bus: &str, text: &str) -> Result<(), HandError> {
-        let fault =
-            Fault::parse(text).map_err(|source| HandError::Fault { text: text.to_owned(), source })?;
+        let fault = Fault::parse(text).map_err(|source| HandError::Fault {
+            text: text.to_owned(),
+            source,
+        })?;
         self.with_bus(bus, |bus, now_us| bus.inject(now_us, &fault))
     }
 
@@ -207,10 +213,18 @@ impl Stand {
     }
 
     fn mount(&self, joint: &str) -> Result<&Mount, HandError> {
-        self.mounts.iter().find(|mount| mount.joint == joint).ok_or_else(|| HandError::NoSuchJoint {
-            joint: joint.to_owned(),
-            known: self.mounts.iter().map(|m| m.joint.as_str()).collect::<Vec<_>>().join(", "),
-        })
+        self.mounts
+            .iter()
+            .find(|mount| mount.joint == joint)
+            .ok_or_else(|| HandError::NoSuchJoint {
+                joint: joint.to_owned(),
+                known: self
+                    .mounts
+                    .iter()
+                    .map(|m| m.joint.as_str())
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            })
     }
 
     /// A hand turns a joint's horn by `rad`.
@@ -233,7 +247,10 @@ impl Stand {
                 seat = self.seat(&mount.bus).ok();
                 bus_name = &mount.bus;
             }
-            if let Some(Seat { device: Simulated::Bus(bus), .. }) = seat.as_deref()
+            if let Some(Seat {
+                device: Simulated::Bus(bus),
+                ..
+            }) = seat.as_deref()
                 && let Some(servo) = bus.servo(mount.id)
             {
                 seen.push(mount.truth(servo));
@@ -245,8 +262,13 @@ impl Stand {
     /// Where one joint really is.
     pub fn joint(&self, joint: &str) -> Result<JointTruth, HandError> {
         let mount = self.mount(joint)?;
-        let truth = self.with_bus(&mount.bus, |bus, _| bus.servo(mount.id).map(|servo| mount.truth(servo)))?;
-        truth.ok_or_else(|| HandError::NoSuchJoint { joint: joint.to_owned(), known: String::new() })
+        let truth = self.with_bus(&mount.bus, |bus, _| {
+            bus.servo(mount.id).map(|servo| mount.truth(servo))
+        })?;
+        truth.ok_or_else(|| HandError::NoSuchJoint {
+            joint: joint.to_owned(),
+            known: String::new(),
+        })
     }
 
     /// Begins to note when the host writes to each bus.

@@ -36,36 +36,59 @@ impl Ports for SimPorts {
     }
 
     fn open(&mut self, address: &str, baud: u32) -> Result<Box<dyn Transport>, TransportError> {
-        let not_found = || TransportError::NotFound { address: address.to_owned() };
+        let not_found = || TransportError::NotFound {
+            address: address.to_owned(),
+        };
         let name = address.strip_prefix(SCHEME).ok_or_else(not_found)?;
         let seat = self.stand.seats.get(name).ok_or_else(not_found)?;
         let opening = lock(seat).open(self.stand.now_us(), baud).ok_or_else(not_found)?;
         let clock = Arc::clone(&self.stand.clock);
-        Ok(Box::new(SimTransport::new(address.to_owned(), Arc::clone(seat), clock, opening)))
+        Ok(Box::new(SimTransport::new(
+            address.to_owned(),
+            Arc::clone(seat),
+            clock,
+            opening,
+        )))
     }
 
     fn touch(&mut self, address: &str, touch: &Touch) -> Result<(), TouchError> {
         let hand = match *touch {
             Touch::Cable { connected } => {
-                return self.stand.plug(address, connected).map_err(|error| refused(address, &error));
+                return self
+                    .stand
+                    .plug(address, connected)
+                    .map_err(|error| refused(address, &error));
             }
-            Touch::Dial { control, turns } => Hand::Dial { control, by: Turn::Turns(turns), over_us: 0 },
+            Touch::Dial { control, turns } => Hand::Dial {
+                control,
+                by: Turn::Turns(turns),
+                over_us: 0,
+            },
             Touch::Button { control, down } => Hand::Button { control, down },
-            Touch::Tablet { at: Some([x, y]), buttons } => {
-                Hand::Puck(Puck { x, y, buttons, ..Puck::default() })
-            }
+            Touch::Tablet {
+                at: Some([x, y]),
+                buttons,
+            } => Hand::Puck(Puck {
+                x,
+                y,
+                buttons,
+                ..Puck::default()
+            }),
             Touch::Tablet { at: None, .. } => Hand::Away,
         };
-        self.stand.touch(address, &hand).map_err(|error| refused(address, &error))
+        self.stand
+            .touch(address, &hand)
+            .map_err(|error| refused(address, &error))
     }
 }
 
 fn refused(address: &str, error: &HandError) -> TouchError {
     let address = address.to_owned();
     match error {
-        HandError::NoSuchControl { control, .. } => {
-            TouchError::NoSuchControl { address, control: control.clone() }
-        }
+        HandError::NoSuchControl { control, .. } => TouchError::NoSuchControl {
+            address,
+            control: control.clone(),
+        },
         _ => TouchError::NotSimulated { address },
     }
 }

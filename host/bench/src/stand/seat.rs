@@ -196,8 +196,12 @@ impl Seat {
             traffic.writes_us = std::mem::take(writes_us);
         }
         if let Simulated::Bus(bus) = &self.device {
-            let new = bus.statuses().skip_while(|status| status.last_us <= self.answered_us);
-            traffic.answers.extend(new.filter(|status| status.last_us <= now_us));
+            let new = bus
+                .statuses()
+                .skip_while(|status| status.last_us <= self.answered_us);
+            traffic
+                .answers
+                .extend(new.filter(|status| status.last_us <= now_us));
         }
         if let Some(last) = traffic.answers.last() {
             self.answered_us = last.last_us;

@@ -15,8 +15,14 @@ pub struct Surface {
 impl From<&TabletProfile> for Surface {
     fn from(profile: &TabletProfile) -> Self {
         let counts = profile.surface.counts.map(f64::from);
-        let [x, y] = profile.surface.counts_per_inch.map(|per_inch| f64::from(per_inch.max(1)));
-        Self { counts, inches: [counts[0] / x, counts[1] / y] }
+        let [x, y] = profile
+            .surface
+            .counts_per_inch
+            .map(|per_inch| f64::from(per_inch.max(1)));
+        Self {
+            counts,
+            inches: [counts[0] / x, counts[1] / y],
+        }
     }
 }
 
@@ -55,7 +61,10 @@ mod tests {
     use device_profiles::Profiles;
 
     fn graphire() -> Surface {
-        Profiles::builtin().tablet("graphire-serial").expect("built in").into()
+        Profiles::builtin()
+            .tablet("graphire-serial")
+            .expect("built in")
+            .into()
     }
 
     #[test]

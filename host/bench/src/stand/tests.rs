@@ -9,8 +9,13 @@ use std::time::Duration;
 
 fn stand() -> (VirtualClock, Stand) {
     let clock = VirtualClock::new();
-    let equipment = Equipment { puppet: Some("marionette".into()), ..Equipment::default() };
-    let stand = equipment.stand(Arc::new(clock.clone()), &Profiles::builtin()).expect("built in");
+    let equipment = Equipment {
+        puppet: Some("marionette".into()),
+        ..Equipment::default()
+    };
+    let stand = equipment
+        .stand(Arc::new(clock.clone()), &Profiles::builtin())
+        .expect("built in");
     (clock, stand)
 }
 
@@ -46,11 +51,15 @@ fn a_cable_that_is_out_makes_the_port_gone_until_it_is_opened_again() {
     let (_, stand) = stand();
     let mut ports = SimPorts::new(stand.clone());
     let mut port = ports.open("sim:tablet", 9600).expect("opens");
-    ports.touch("sim:tablet", &RigTouch::Cable { connected: false }).expect("unplugs");
+    ports
+        .touch("sim:tablet", &RigTouch::Cable { connected: false })
+        .expect("unplugs");
     assert!(read(&mut *port).expect_err("gone").is_gone());
     assert!(ports.open("sim:tablet", 9600).is_err());
     assert_eq!(ports.list().len(), 3);
-    ports.touch("sim:tablet", &RigTouch::Cable { connected: true }).expect("plugs");
+    ports
+        .touch("sim:tablet", &RigTouch::Cable { connected: true })
+        .expect("plugs");
     assert!(port.write(&[0]).expect_err("still gone").is_gone());
     ports.open("sim:tablet", 9600).expect("opens again");
 }
@@ -58,7 +67,9 @@ fn a_cable_that_is_out_makes_the_port_gone_until_it_is_opened_again() {
 #[test]
 fn the_cable_comes_out_at_the_chosen_call() {
     let (_, stand) = stand();
-    let mut port = SimPorts::new(stand.clone()).open("sim:upper", 1_000_000).expect("opens");
+    let mut port = SimPorts::new(stand.clone())
+        .open("sim:upper", 1_000_000)
+        .expect("opens");
     stand.unplug_after_calls("upper", 2).expect("there");
     assert!(port.write(&[1]).is_ok() && read(&mut *port).is_ok());
     assert!(port.write(&[1]).is_err());
@@ -69,15 +80,40 @@ fn the_cable_comes_out_at_the_chosen_call() {
 fn refusals_name_what_there_is() {
     let (_, stand) = stand();
     let rows = [
-        (stand.fault("dial-box", "stall"), "dial-box is not a servo bus; the buses are: lower, upper"),
-        (stand.plug("nobody", false), "there are: dial-box, lower, tablet, upper"),
         (
-            stand.touch("dial-box", &Touch::Dial { control: 8, by: Turn::Counts(1), over_us: 0 }),
+            stand.fault("dial-box", "stall"),
+            "dial-box is not a servo bus; the buses are: lower, upper",
+        ),
+        (
+            stand.plug("nobody", false),
+            "there are: dial-box, lower, tablet, upper",
+        ),
+        (
+            stand.touch(
+                "dial-box",
+                &Touch::Dial {
+                    control: 8,
+                    by: Turn::Counts(1),
+                    over_us: 0,
+                },
+            ),
             "dial-box has no dial 8",
         ),
-        (stand.touch("tablet", &Touch::Button { control: 1, down: true }), "tablet has no button 1"),
+        (
+            stand.touch(
+                "tablet",
+                &Touch::Button {
+                    control: 1,
+                    down: true,
+                },
+            ),
+            "tablet has no button 1",
+        ),
         (stand.fault("upper", "servo 3 asleep"), "column 9"),
-        (stand.push("tail", 1.0), "there is no joint \"tail\"; there are: neck_yaw"),
+        (
+            stand.push("tail", 1.0),
+            "there is no joint \"tail\"; there are: neck_yaw",
+        ),
     ];
     for (result, words) in rows {
         let message = result.expect_err(words).to_string();
@@ -88,9 +124,14 @@ fn refusals_name_what_there_is() {
 #[test]
 fn the_truth_is_told_in_the_joints_own_angles() {
     let clock = VirtualClock::new();
-    let mut equipment = Equipment { puppet: Some("marionette".into()), ..Equipment::default() };
+    let mut equipment = Equipment {
+        puppet: Some("marionette".into()),
+        ..Equipment::default()
+    };
     equipment.plan.start_rad.insert("neck_pitch".into(), 0.25);
-    let stand = equipment.stand(Arc::new(clock), &Profiles::builtin()).expect("built in");
+    let stand = equipment
+        .stand(Arc::new(clock), &Profiles::builtin())
+        .expect("built in");
     let joints = stand.joints();
     assert_eq!(joints.len(), 22);
     let neck = stand.joint("neck_pitch").expect("there");
@@ -98,5 +139,9 @@ fn the_truth_is_told_in_the_joints_own_angles() {
     stand.push("neck_pitch", -0.1).expect("pushed");
     assert!((stand.joint("neck_pitch").expect("there").position_rad - 0.15).abs() < 1e-9);
     equipment.plan.start_rad.insert("tail".into(), 0.0);
-    assert!(equipment.stand(Arc::new(VirtualClock::new()), &Profiles::builtin()).is_err());
+    assert!(
+        equipment
+            .stand(Arc::new(VirtualClock::new()), &Profiles::builtin())
+            .is_err()
+    );
 }

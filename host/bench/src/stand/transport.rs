@@ -18,11 +18,18 @@ pub struct SimTransport {
 
 impl SimTransport {
     pub(super) fn new(address: String, seat: Arc<Mutex<Seat>>, clock: Arc<dyn Clock>, opening: u64) -> Self {
-        Self { address, seat, clock, opening }
+        Self {
+            address,
+            seat,
+            clock,
+            opening,
+        }
     }
 
     fn gone(&self) -> TransportError {
-        TransportError::Gone { address: self.address.clone() }
+        TransportError::Gone {
+            address: self.address.clone(),
+        }
     }
 }
 
@@ -64,7 +71,10 @@ impl Transport for SimTransport {
     fn wait(&mut self, clock: &dyn Clock, until: Instant) {
         while clock.now() < until && !self.ready() {
             let soon = clock.now().after(WAIT_STEP);
-            let due = lock(&self.seat).firmware().next_byte_us().map(|us| Instant::from_nanos(us * 1000));
+            let due = lock(&self.seat)
+                .firmware()
+                .next_byte_us()
+                .map(|us| Instant::from_nanos(us * 1000));
             // An answer that is not under way yet may come sooner than one that is.
             clock.sleep_until(until.min(due.map_or(soon, |due| due.min(soon).max(clock.now()))));
         }

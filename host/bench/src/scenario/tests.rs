@@ -1,0 +1,141 @@
+use super::*;
+use std::path::Path;
+
+fn parse(text: &str) -> Result<Scenario, Vec<ScenarioError>> {
+    Scenario::parse("test", Path::new("."), text)
+}
+
+fn outcome(text: &str) -> Outcome {
+    run(&parse(text).expect("reads"), &RunOptions::default())
+}
+
+#[test]
+fn errors_have_a_place_and_say_what_was_expected() {
+    let rows = [
+        ("at", 1, 3, "expected a time in seconds"),
+        ("at 1 dance", 1, 6, "expected turn, press"),
+        (
+            "at 1 turn knob 9 by 3",
+            1,
+            16,
+            "expected a dial, 1 to 8, found `9`",
+        ),
+        (
+            "at 1 turn knob 1 by 3 over",
+            1,
+            27,
+            "expected a duration in seconds",
+        ),
+        (
+            "at 2 undo\nat 1 undo",
+            2,
+            4,
+            "no earlier than the line before, 2 s, found 1",
+        ),
+        ("by 1 perform arm", 1, 6, "expected player, joint"),
+        (
+            "by 1 player is dancing",
+            1,
+            16,
+            "expected released, arming, holding, playing or faulted",
+        ),
+        (
+            "by 1 label dial 1 is Turn",
+            1,
+            22,
+            "expected a text in quotes, found `Turn`",
+        ),
+        ("at 1 fault servo 3 asleep on upper", 1, 20, "found `asleep`"),
+        ("at 1 fault noise", 1, 12, "expected a fault, `on` and a bus"),
+        ("use puppet marionette, hat red", 1, 24, "expected show, puppet"),
+        (
+            "use puppet marionette knobs x",
+            1,
+            23,
+            "expected the end of the line, found `knobs`",
+        ),
+        (
+            "always servos within reason",
+            1,
+            22,
+            "expected limits, range or speed",
+        ),
+        (
+            "at 1 do {\"undo\": 3}",
+            1,
+            18,
+            "expected a command as in journals",
+        ),
+        (
+            "sometimes it rains",
+            1,
+            1,
+            "expected use, at, by, within, always or never, found `sometimes`",
+        ),
+        ("by 1 joint a is 1 within -2", 1, 26, "expected a tolerance"),
+    ];
+    for (text, line, column, words) in rows {
+        let errors = parse(text).expect_err(text);
+        let error = &errors[0];
+        assert!(error.message.contains(words), "{text}: {error}");
+        assert_eq!((error.line, error.column), (line, column), "{text}: {error}");
+    }
+}
+
+#[test]
+fn every_wrong_line_is_told() {
+    assert_eq!(
+        parse("at x undo\n# fine\nby 1 nothing\nat 2 undo\n")
+            .expect_err("two are wrong")
+            .len(),
+        2
+    );
+}
+
+#[test]
+fn the_tolerance_on_hardware_may_stand_behind() {
+    parse("by 1 joint walker.elbow is 0.2 within 0.001  hil within 0.02").expect("reads");
+}
+
+#[test]
+fn a_failure_says_where_and_what_was_found() {
+    let outcome = outcome("by 0.05 transport is playing\nat 1 undo\n");
+    assert!(!outcome.passed());
+    let failure = &outcome.failures[0];
+    assert_eq!((failure.line, failure.column), (1, 1));
+    assert_eq!(failure.message, "at 0.05 s time is 0.000");
+}
+
+#[test]
+fn always_and_never_are_judged_at_every_step_and_told_once() {
+    let outcome = outcome(
+        "always transport is playing\nnever from 0.2 transport is paused\nnever to 0.1 keys are 7\nat 0.5 undo\n",
+    );
+    let lines: Vec<u32> = outcome.failures.iter().map(|failure| failure.line).collect();
+    assert_eq!(lines, [1, 2]);
+}
+
+#[test]
+fn what_cannot_begin_is_a_failure_too() {
+    let outcome = outcome("use show no/such/show\n");
+    assert!(
+        outcome.failures[0].message.contains("no/such/show"),
+        "{:?}",
+        outcome.failures
+    );
+    assert_eq!(outcome.failures[0].line, 0);
+}
+
+#[test]
+fn junit_is_escaped_and_names_the_seed() {
+    let mut one = outcome("by 0.02 label dial 1 is \"<&>\"\n");
+    one.failures[0].message.push_str(" \"<&>\"\u{1}");
+    let fine = outcome("at 0.1 undo\n");
+    let xml = junit(&[one, fine]);
+    assert!(xml.contains("tests=\"2\" failures=\"1\""), "{xml}");
+    assert!(xml.contains("&quot;&lt;&amp;&gt;&quot;\""), "{xml}");
+    assert!(
+        xml.contains("name=\"seed\" value=\"0\"") && xml.contains("test.scn:1:1: at 0.02 s"),
+        "{xml}"
+    );
+}
