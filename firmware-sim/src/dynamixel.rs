@@ -3,7 +3,7 @@
 //! `bus` orders what happens on the wire and hands instructions to servos; `wire` carries bytes at their
 //! pace; `receiver` finds packets; `packet` and `crc` are the framing; `servo` is one servo, made of its
 //! `table`, its `motion` along a `trajectory`, its `plant` and the protection of its `hardware`; `execute` and
-//! `write` are what an instruction does to it; `fault` is what may go wrong. Source: `docs/protocols/dynamixel-2.md` (the maker's protocol page and control tables).
+//! `write` are what an instruction does to it; `fault` is what may go wrong. Source: `docs/protocols/dynamixel2.md` (the maker's protocol page and control tables).
 
 mod bus;
 mod chain;

@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn status_packets_match_the_worked_vectors() {
-        // Worked out twice by hand for `docs/protocols/dynamixel-2.md`.
+        // Worked out twice by hand for `docs/protocols/dynamixel2.md`.
         let table: [(&[u8], &[u8]); 3] = [
             (
                 &[0xFF, 0xFF, 0xFD, 0xFD],

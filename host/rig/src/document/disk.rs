@@ -66,9 +66,14 @@ fn readable_by_others(_: &fs::File) -> io::Result<()> {
 /// A rename is only safe from a power cut once the folder itself is flushed.
 #[cfg(unix)]
 fn sync_folder(file: &Path) -> io::Result<()> {
+    fs::File::open(folder_of(file))?.sync_all()
+}
+
+/// The folder a file is in; a bare name is in the working folder.
+fn folder_of(file: &Path) -> &Path {
     match file.parent() {
-        Some(folder) => fs::File::open(folder)?.sync_all(),
-        None => Ok(()),
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
 }
 
@@ -130,7 +135,7 @@ pub(super) fn put_all(
 }
 
 fn write_one(disk: &mut dyn Disk, file: &NewFile) -> io::Result<Aside> {
-    let folder = file.path.parent().unwrap_or(Path::new("."));
+    let folder = folder_of(&file.path);
     disk.make_folder(folder)?;
     let before = fs::read_to_string(&file.path).ok();
     let temporary = disk.write_aside(folder, &file.text)?;
@@ -155,7 +160,7 @@ fn restore(disk: &mut dyn Disk, replaced: &[Aside]) {
     for file in replaced.iter().rev() {
         match &file.before {
             Some(text) => {
-                let folder = file.path.parent().unwrap_or(Path::new("."));
+                let folder = folder_of(&file.path);
                 if let Ok(temporary) = disk.write_aside(folder, text) {
                     let _ = disk.rename(&temporary, &file.path);
                 }
