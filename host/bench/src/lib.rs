@@ -8,6 +8,7 @@
 //! (devices for other programs, in real time).
 
 pub mod demo;
+pub mod dut;
 pub mod hands;
 pub mod replay;
 pub mod scenario;

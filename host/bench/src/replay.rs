@@ -89,7 +89,8 @@ pub fn replay(
         Box::new(script.take_ports()),
         recorder.clone(),
     ));
-    let mut rig = start_rig(&clock, ports, show, profiles, equipment, Some(recorder))?;
+    let shared: Arc<dyn Clock> = Arc::new(clock.clone());
+    let mut rig = start_rig(&shared, ports, show, profiles, equipment, Some(recorder), None)?;
     for step in &script.steps {
         clock.sleep_until(step.now);
         rig.step(&mut step.commands.iter().cloned());

@@ -1,19 +1,21 @@
-//! A whole rig with its bench in virtual time: devices, hands and rig on one clock that moves only when stepped.
+//! A whole rig with its bench: devices, hands and rig on one clock, which moves only when the world is stepped.
 //!
-//! Nothing here reads the time of day or runs beside anything else, so the same options and the same doings
-//! give the same snapshots, bytes and journal, every time.
+//! Nothing then reads the time of day or runs beside anything else, so the same options and the same doings give
+//! the same snapshots, bytes and journal, every time. With a device under test the clock is the system's and the
+//! puppet has its own thread; nothing else differs.
 
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::sync::Arc;
 use std::time::Duration;
 
-use device::clock::{Clock, VirtualClock};
+use device::clock::{Clock, Instant, MonotonicClock, VirtualClock};
 use device_profiles::Profiles;
 use rig::document::Show;
 use rig::journal::{Recorder, RecordingPorts};
 use rig::{Command, InputSpec, Pace, Ports, PuppetSpec, Rig, RigError, RigOptions, Snapshot};
 
+use crate::dut::{Dut, MixedPorts};
 use crate::hands::Hands;
 use crate::stand::{HandError, PuppetPlan, SCHEME, SimPorts, Stand, StandError};
 
@@ -117,6 +119,8 @@ pub struct WorldOptions {
     pub equipment: Equipment,
     /// Where the journal goes.
     pub journal: Option<Box<dyn Write + Send>>,
+    /// Real ports in place of simulated devices; with any of these, time is real too.
+    pub dut: Option<Dut>,
 }
 
 impl WorldOptions {
@@ -131,6 +135,7 @@ impl WorldOptions {
             profiles: Arc::new(Profiles::builtin()),
             equipment,
             journal: None,
+            dut: None,
         }
     }
 }
@@ -158,9 +163,18 @@ pub struct Late {
     pub at_secs: f64,
 }
 
-/// Devices, hands and a rig on one virtual clock.
+/// Who moves time.
+enum Pacing {
+    /// The world itself.
+    Virtual(VirtualClock),
+    /// Nobody can; the next step is due then.
+    Real(Instant),
+}
+
+/// Devices, hands and a rig on one clock.
 pub struct World {
-    clock: VirtualClock,
+    clock: Arc<dyn Clock>,
+    pacing: Pacing,
     stand: Stand,
     hands: Hands,
     rig: Rig,
@@ -174,22 +188,31 @@ impl World {
         let WorldOptions {
             show,
             profiles,
-            equipment,
+            mut equipment,
             journal,
+            dut,
         } = options;
-        let clock = VirtualClock::new();
-        let stand = equipment.stand(Arc::new(clock.clone()), &profiles)?;
+        let (clock, pacing): (Arc<dyn Clock>, Pacing) = match &dut {
+            None => {
+                let clock = VirtualClock::new();
+                (Arc::new(clock.clone()), Pacing::Virtual(clock))
+            }
+            Some(_) => (Arc::new(MonotonicClock::new()), Pacing::Real(Instant::ZERO)),
+        };
+        equipment.plan.real_buses = dut.iter().flat_map(|dut| dut.ports.keys().cloned()).collect();
+        let stand = equipment.stand(Arc::clone(&clock), &profiles)?;
         let recorder = journal.map(|sink| Recorder::new(sink, BTreeMap::new()));
-        let ports = Box::new(SimPorts::new(stand.clone()));
+        let ports = Box::new(MixedPorts::new(SimPorts::new(stand.clone())));
         let ports: Box<dyn Ports> = match &recorder {
             Some(recorder) => Box::new(RecordingPorts::new(ports, recorder.clone())),
             None => ports,
         };
-        let mut rig = start_rig(&clock, ports, show, profiles, &equipment, recorder)?;
+        let mut rig = start_rig(&clock, ports, show, profiles, &equipment, recorder, dut.as_ref())?;
         let seen = rig.step(&mut std::iter::empty());
         let hands = Hands::new(stand.clone());
         Ok(Self {
             clock,
+            pacing,
             stand,
             hands,
             rig,
@@ -200,7 +223,14 @@ impl World {
 
     /// Moves time on by one period, lets hands do what is due, and steps the rig.
     pub fn step(&mut self, commands: impl IntoIterator<Item = Command>) -> &Arc<Snapshot> {
-        self.clock.advance(PERIOD);
+        match &mut self.pacing {
+            Pacing::Virtual(clock) => clock.advance(PERIOD),
+            Pacing::Real(due) => {
+                // A host that was held up goes on from now rather than hurrying after lost steps.
+                *due = due.after(PERIOD).max(self.clock.now());
+                self.clock.sleep_until(*due);
+            }
+        }
         self.refused.extend(self.hands.advance());
         self.seen = self.rig.step(&mut commands.into_iter());
         &self.seen
@@ -208,7 +238,8 @@ impl World {
 
     /// Lets the host sleep: time goes on for the devices, and nobody asks them anything.
     pub fn stall(&mut self, secs: f64) {
-        self.clock.advance(Duration::from_secs_f64(secs.max(0.0)));
+        let until = self.clock.now().after(Duration::from_secs_f64(secs.max(0.0)));
+        self.clock.sleep_until(until);
     }
 
     /// Steps until `happened`, at least once. `what` is for the message when it does not.
@@ -241,7 +272,7 @@ impl World {
         &self.seen
     }
 
-    /// Virtual time, seconds.
+    /// Time since the world began, seconds.
     pub fn secs(&self) -> f64 {
         self.clock.now().as_secs_f64()
     }
@@ -278,21 +309,34 @@ impl World {
 }
 
 pub(crate) fn start_rig(
-    clock: &VirtualClock,
+    clock: &Arc<dyn Clock>,
     ports: Box<dyn Ports>,
     show: Show,
     profiles: Arc<Profiles>,
     equipment: &Equipment,
     recorder: Option<Recorder>,
+    dut: Option<&Dut>,
 ) -> Result<Rig, WorldError> {
-    let puppet = equipment.puppet(&profiles, Pace::WithTheRig, PERIOD)?;
+    let pace = if dut.is_some() {
+        Pace::OwnThread
+    } else {
+        Pace::WithTheRig
+    };
+    let mut puppet = equipment.puppet(&profiles, pace, PERIOD)?;
+    let mut inputs = equipment.inputs();
+    if let Some(dut) = dut {
+        dut.redirect_inputs(&mut inputs);
+        if let Some(puppet) = &mut puppet {
+            dut.redirect_puppet(puppet);
+        }
+    }
     let options = RigOptions {
         show,
         folder: None,
         profiles,
-        inputs: equipment.inputs(),
+        inputs,
         puppet,
         recorder,
     };
-    Ok(Rig::new(Arc::new(clock.clone()), ports, options)?)
+    Ok(Rig::new(Arc::clone(clock), ports, options)?)
 }

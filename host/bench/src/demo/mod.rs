@@ -165,6 +165,7 @@ pub fn run(
         profiles: Arc::clone(&options.profiles),
         equipment: equipment.clone(),
         journal: Some(Box::new(journal.clone())),
+        dut: None,
     })?;
     let told = Story::new(world, seen)?.tell(&targets)?;
     let text = journal.text();

@@ -117,6 +117,18 @@ impl Doing {
         })
     }
 
+    /// The device that a hand is laid on, if that is what is done.
+    pub(super) fn device(&self) -> Option<&str> {
+        match self {
+            Self::Hand(device, _) => Some(device),
+            Self::Cursor { .. } => Some(TABLET),
+            Self::Plug { device, .. } | Self::PowerCycle { device } => Some(device),
+            Self::Fault { bus, .. } | Self::Mend { bus } => Some(bus),
+            // Joints are found on the stand, or they are not there.
+            Self::Push { .. } | Self::Ask(_) | Self::Stall { .. } | Self::Mark => None,
+        }
+    }
+
     /// Does it; commands for the rig are given with the next step.
     pub(super) fn act(&self, world: &mut World, commands: &mut Vec<Command>) -> Result<(), HandError> {
         match self {

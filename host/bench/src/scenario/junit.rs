@@ -10,7 +10,7 @@ use super::Outcome;
 /// The outcomes as one file.
 pub fn junit(outcomes: &[Outcome]) -> String {
     let failed = outcomes.iter().filter(|outcome| !outcome.passed()).count();
-    let secs: f64 = outcomes.iter().map(|outcome| outcome.virtual_secs).sum();
+    let secs: f64 = outcomes.iter().map(|outcome| outcome.secs).sum();
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n");
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -30,7 +30,7 @@ fn case(xml: &mut String, outcome: &Outcome) {
     let _ = writeln!(
         xml,
         "    <testcase classname=\"scenarios\" name=\"{name}\" time=\"{:.3}\">",
-        outcome.virtual_secs
+        outcome.secs
     );
     let _ = writeln!(
         xml,

@@ -19,7 +19,7 @@ use check::Check;
 use doing::Doing;
 
 pub use junit::junit;
-pub use run::{Failure, Outcome, RunOptions, run};
+pub use run::{Failure, Outcome, RunOptions, run, run_on};
 
 /// A scenario that has been read.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +60,8 @@ struct Setting {
 /// One line that is played.
 #[derive(Clone, Debug, PartialEq)]
 struct Line {
+    /// What is done or expected, as written: what a person at real controls is asked to do.
+    text: String,
     number: u32,
     column: u32,
     when: When,

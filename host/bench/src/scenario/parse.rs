@@ -63,12 +63,14 @@ impl Scenario {
                 }
             }
         };
+        let text = words.clone().rest("what is done or expected")?.to_owned();
         let what = match when {
             When::At(_) => doing_or_check(&mut words)?,
             _ => What::Check(Check::parse(&mut words)?),
         };
         words.end()?;
         self.lines.push(Line {
+            text,
             number,
             column,
             when,

@@ -9,7 +9,8 @@ use rig::document::{self, NetworkFile, Show};
 use super::check::{Check, Evidence};
 use super::doing::Doing;
 use super::{Line, Scenario, What, When};
-use crate::stand::JointTruth;
+use crate::dut::Dut;
+use crate::stand::{HandError, JointTruth};
 use crate::world::{Equipment, PERIOD, World, WorldOptions};
 
 /// How a scenario is played.
@@ -48,8 +49,8 @@ pub struct Outcome {
     pub name: String,
     /// The seed it was played with: the same one gives the same course.
     pub seed: u64,
-    /// Virtual time it took.
-    pub virtual_secs: f64,
+    /// Time it took: virtual on the simulated bench.
+    pub secs: f64,
     /// Expectations that were judged.
     pub checks: usize,
     /// Whether torque is known to be off after the rig was closed. A scenario that ends with a cable out or a
@@ -67,23 +68,33 @@ impl Outcome {
     }
 }
 
-/// Plays a scenario on the simulated bench.
+/// Plays a scenario on the simulated bench, in virtual time.
 pub fn run(scenario: &Scenario, options: &RunOptions) -> Outcome {
+    play(scenario, options, None, &mut |_| ())
+}
+
+/// Plays a scenario in real time with real ports in place of what `dut` names. What hands do to real devices is
+/// asked of a person: `ask` gets it as the scenario has it, when it is due.
+pub fn run_on(scenario: &Scenario, options: &RunOptions, dut: &Dut, ask: &mut dyn FnMut(&str)) -> Outcome {
+    play(scenario, options, Some(dut), ask)
+}
+
+fn play(scenario: &Scenario, options: &RunOptions, dut: Option<&Dut>, ask: &mut dyn FnMut(&str)) -> Outcome {
     let seed = options.seed.unwrap_or(scenario.setting.seed);
+    let checks = scenario
+        .lines
+        .iter()
+        .filter(|line| matches!(line.what, What::Check(_)));
     let mut outcome = Outcome {
         name: scenario.name.clone(),
         seed,
-        virtual_secs: 0.0,
-        checks: scenario
-            .lines
-            .iter()
-            .filter(|line| matches!(line.what, What::Check(_)))
-            .count(),
+        secs: 0.0,
+        checks: checks.count(),
         torque_off_at_end: true,
         failures: Vec::new(),
     };
-    match begin(scenario, options, seed) {
-        Ok(world) => Play::new(scenario, world).play(&mut outcome),
+    match begin(scenario, options, seed, dut) {
+        Ok(world) => Play::new(scenario, world, dut, ask).play(&mut outcome),
         Err(message) => outcome.failures.push(Failure {
             line: 0,
             column: 0,
@@ -93,7 +104,7 @@ pub fn run(scenario: &Scenario, options: &RunOptions) -> Outcome {
     outcome
 }
 
-fn begin(scenario: &Scenario, options: &RunOptions, seed: u64) -> Result<World, String> {
+fn begin(scenario: &Scenario, options: &RunOptions, seed: u64, dut: Option<&Dut>) -> Result<World, String> {
     let setting = &scenario.setting;
     let mut show = match &setting.show {
         Some(path) => document::load(path).map_err(|errors| errors.to_string())?.show,
@@ -127,6 +138,7 @@ fn begin(scenario: &Scenario, options: &RunOptions, seed: u64) -> Result<World, 
         profiles,
         equipment,
         journal: None,
+        dut: dut.cloned(),
     })
     .map_err(|error| error.to_string())
 }
@@ -134,6 +146,8 @@ fn begin(scenario: &Scenario, options: &RunOptions, seed: u64) -> Result<World, 
 /// A scenario being played.
 struct Play<'a> {
     scenario: &'a Scenario,
+    dut: Option<&'a Dut>,
+    ask: &'a mut dyn FnMut(&str),
     world: World,
     commands: Vec<Command>,
     truths: Vec<JointTruth>,
@@ -146,10 +160,12 @@ struct Play<'a> {
 }
 
 impl<'a> Play<'a> {
-    fn new(scenario: &'a Scenario, world: World) -> Self {
+    fn new(scenario: &'a Scenario, world: World, dut: Option<&'a Dut>, ask: &'a mut dyn FnMut(&str)) -> Self {
         let truths = world.stand().joints();
         Self {
             scenario,
+            dut,
+            ask,
             world,
             commands: Vec::new(),
             past: [Vec::new(), Vec::new()],
@@ -167,7 +183,7 @@ impl<'a> Play<'a> {
                 break;
             }
         }
-        outcome.virtual_secs = self.world.secs();
+        outcome.secs = self.world.secs();
         outcome.torque_off_at_end = self.world.close();
         self.failures.sort_by_key(|failure| failure.line);
         outcome.failures = self.failures;
@@ -179,20 +195,7 @@ impl<'a> Play<'a> {
                 self.run_to(at_secs);
                 self.at_secs = at_secs;
                 match what {
-                    What::Do(doing) => {
-                        match doing {
-                            Doing::Mark => self.mark = self.world.stand().joints(),
-                            // What moved during a pause says nothing about a single step.
-                            Doing::Stall { .. } => {
-                                self.truths.clear();
-                                self.past = [Vec::new(), Vec::new()];
-                            }
-                            _ => {}
-                        }
-                        doing
-                            .act(&mut self.world, &mut self.commands)
-                            .map_err(|error| error.to_string())
-                    }
+                    What::Do(doing) => self.act(doing, &line.text),
                     What::Check(check) => self.judge(check).map_err(|found| self.found(&found)),
                 }
             }
@@ -201,6 +204,47 @@ impl<'a> Play<'a> {
             // These are judged at every step; the parser lets nothing else through.
             _ => Ok(()),
         }
+    }
+
+    fn act(&mut self, doing: &Doing, text: &str) -> Result<(), String> {
+        match doing {
+            Doing::Mark => self.mark = self.joints(),
+            // What moved during a pause says nothing about a single step.
+            Doing::Stall { .. } => {
+                self.truths.clear();
+                self.past = [Vec::new(), Vec::new()];
+            }
+            _ => {}
+        }
+        let is_real = |name: &str| self.dut.is_some_and(|dut| dut.has(name));
+        if doing.device().is_some_and(is_real) {
+            (self.ask)(text);
+            return Ok(());
+        }
+        match doing.act(&mut self.world, &mut self.commands) {
+            // A joint of a real bus: it is not on the stand.
+            Err(HandError::NoSuchDevice { .. }) if self.dut.is_some() => (self.ask)(text),
+            other => return other.map_err(|error| error.to_string()),
+        }
+        Ok(())
+    }
+
+    /// The joints as they are: simulated ones really, real ones as the rig reads them.
+    fn joints(&self) -> Vec<JointTruth> {
+        let stand = self.world.stand();
+        let mut joints = stand.joints();
+        if let (Some(_), Some(puppet)) = (self.dut, &self.world.seen().puppet) {
+            let earlier = |joint: &str| self.truths.iter().find(|truth| truth.joint == joint);
+            joints.extend(stand.seen_joints(puppet).into_iter().map(|seen| {
+                let by_rad =
+                    earlier(&seen.joint).map_or(0.0, |before| seen.position_rad - before.position_rad);
+                JointTruth {
+                    velocity_rad_per_s: by_rad / PERIOD.as_secs_f64(),
+                    ..seen
+                }
+            }));
+        }
+        joints
     }
 
     fn run_to(&mut self, secs: f64) {
@@ -228,7 +272,8 @@ impl<'a> Play<'a> {
     fn step(&mut self) {
         let commands = std::mem::take(&mut self.commands);
         self.world.step(commands);
-        let before = std::mem::replace(&mut self.truths, self.world.stand().joints());
+        let joints = self.joints();
+        let before = std::mem::replace(&mut self.truths, joints);
         self.past.swap(0, 1);
         self.past[0] = before;
         for line in &self.scenario.lines {
@@ -269,6 +314,7 @@ impl<'a> Play<'a> {
         check.judge(&Evidence {
             seen: self.world.seen(),
             stand: self.world.stand(),
+            hil: self.dut.is_some(),
             truths: &self.truths,
             past: self.past.each_ref().map(Vec::as_slice),
             mark: &self.mark,

@@ -139,3 +139,21 @@ fn junit_is_escaped_and_names_the_seed() {
         "{xml}"
     );
 }
+
+#[test]
+fn with_a_device_under_test_a_person_is_asked_and_time_is_real() {
+    // A terminal that never answers stands for the real box; the tablet stays simulated.
+    let pty = device::transport::pty::Pty::open().expect("a terminal");
+    let dut = crate::dut::Dut {
+        ports: BTreeMap::from([("dial-box".to_owned(), pty.path().display().to_string())]),
+    };
+    let text = "at 0.1 turn dial 1 by 64 # slowly\nby 3 device tablet is present\nby 3 device dial-box is starting\n";
+    let mut asked = Vec::new();
+    let scenario = parse(text).expect("reads");
+    let outcome = run_on(&scenario, &RunOptions::default(), &dut, &mut |doing| {
+        asked.push(doing.to_owned());
+    });
+    assert_eq!(outcome.failures, []);
+    assert_eq!(asked, ["turn dial 1 by 64"]);
+    assert!(outcome.secs > 0.1, "{outcome:?}");
+}

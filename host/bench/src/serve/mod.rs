@@ -13,14 +13,18 @@ pub use bus::{BusPlan, Eeprom, ServoSpec, ServoSpecError};
 pub use line::{Place, ServeLine};
 pub use served::Served;
 
+// What a served device is told with and tells, for programs that must not know the firmware itself.
+pub use firmware_sim::dial_box::Output;
+pub use firmware_sim::dynamixel::WireTime;
+pub use firmware_sim::script::ScriptError;
+pub use firmware_sim::{Fault, Script};
+
 use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use device::clock::Clock;
 use device::transport::TransportError;
-use firmware_sim::dial_box::Output;
-
 use pace::Pace;
 
 /// Something that a served device did or that was done to it. Times are microseconds since serving began.

@@ -1,7 +1,10 @@
 //! A device that can be served, and what the loop must know of it.
 
+use device_profiles::{KnobsProfile, TabletProfile};
 use firmware_sim::dial_box::Output;
 use firmware_sim::hands::Hands;
+use firmware_sim::script::{self, ScriptError};
+use firmware_sim::wacom_iv::Model;
 use firmware_sim::{Firmware, Script, ServoBus, SgiDialBox, WacomIv};
 
 use super::ServeError;
@@ -18,6 +21,25 @@ pub enum Served {
 }
 
 impl Served {
+    /// The dial box a profile describes, switched on.
+    pub fn dial_box(profile: &KnobsProfile) -> Self {
+        Self::DialBox(Box::new(SgiDialBox::new(profile.into())))
+    }
+
+    /// The tablet a profile describes, switched on, with a clock that is right.
+    pub fn tablet(profile: &TabletProfile) -> Self {
+        Self::Tablet(Box::new(WacomIv::new(Model::from(profile), 0)))
+    }
+
+    /// Reads a script for this device; a bus has none.
+    pub fn script(&self, text: &str) -> Result<Script, Vec<ScriptError>> {
+        match self {
+            Self::DialBox(_) => Script::parse(script::Device::DialBox, text),
+            Self::Tablet(_) => Script::parse(script::Device::Tablet, text),
+            Self::Bus(..) => Ok(Script::default()),
+        }
+    }
+
     pub(super) fn firmware(&mut self) -> &mut dyn Firmware {
         match self {
             Self::DialBox(dial_box) => &mut **dial_box,

@@ -39,7 +39,7 @@ fn open(path: &str, baud: u32) -> Box<dyn Transport> {
     transport::open(&path.parse::<Address>().expect("an address"), baud).expect("opens")
 }
 
-fn hear(port: &mut dyn Transport, count: usize) -> (Vec<u8>, Duration) {
+fn hear(port: &mut dyn Transport, count: usize) -> Vec<u8> {
     let clock = MonotonicClock::new();
     let end = clock.now().after(Duration::from_secs(5));
     let mut heard = Vec::new();
@@ -49,7 +49,7 @@ fn hear(port: &mut dyn Transport, count: usize) -> (Vec<u8>, Duration) {
         let count = port.read(&mut buffer).expect("there");
         heard.extend_from_slice(&buffer[..count]);
     }
-    (heard, clock.now().since(device::clock::Instant::ZERO))
+    heard
 }
 
 fn bus(folder: Option<&Path>) -> Served {
@@ -62,8 +62,11 @@ fn bus(folder: Option<&Path>) -> Served {
 fn a_bus_answers_on_a_terminal_and_not_before_its_time() {
     serve(bus(None), &Place::Pty(None), |path| {
         let mut port = open(path, 1_000_000);
+        let clock = MonotonicClock::new();
+        let began = clock.now();
         port.write(PING).expect("writes");
-        let (heard, took) = hear(&mut *port, 14);
+        let heard = hear(&mut *port, 14);
+        let took = clock.now().since(began);
         assert_eq!(
             heard.get(..12).expect("a status"),
             [255, 255, 253, 0, 1, 7, 0, 0x55, 0, 36, 4, heard[11]]
@@ -79,7 +82,7 @@ fn a_bus_answers_over_tcp_one_program_after_the_other() {
         for _ in 0..2 {
             let mut port = open(path, 1_000_000);
             port.write(PING).expect("writes");
-            assert_eq!(hear(&mut *port, 14).0.len(), 14);
+            assert_eq!(hear(&mut *port, 14).len(), 14);
         }
     });
 }
@@ -105,7 +108,7 @@ fn memories_outlive_the_program() {
     serve(bus(Some(folder.path())), &Place::Pty(None), |path| {
         let mut port = open(path, 1_000_000);
         port.write(&write).expect("writes");
-        assert_eq!(hear(&mut *port, 11).0.len(), 11);
+        assert_eq!(hear(&mut *port, 11).len(), 11);
     });
     let Served::Bus(again, ..) = bus(Some(folder.path())) else {
         panic!("a bus")
@@ -150,10 +153,10 @@ fn a_dial_box_plays_its_script_and_tells_what_it_is_shown() {
     let shown = serve(device, &Place::Pty(None), |path| {
         let mut port = open(path, 9600);
         port.write(&[0x20]).expect("writes");
-        assert_eq!(hear(&mut *port, 1).0, [0x20]);
+        assert_eq!(hear(&mut *port, 1), [0x20]);
         // Thirteen bytes, over before the script's first turn.
         port.write(b"\x50\x00\xFF\x61\x02X-Trans ").expect("writes");
-        assert_eq!(hear(&mut *port, 3).0, [0x32, 0, 5]);
+        assert_eq!(hear(&mut *port, 3), [0x32, 0, 5]);
     });
     assert!(
         shown.iter().any(|(_, output)| {

@@ -1,6 +1,6 @@
 //! Putting devices on the bench.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
 
 use device::clock::Clock;
@@ -55,6 +55,8 @@ pub struct PuppetPlan {
     pub sag_rad_per_s: Option<f64>,
     /// Decides what random faults hit.
     pub seed: u64,
+    /// Buses that are real: their servos are not simulated.
+    pub real_buses: BTreeSet<String>,
 }
 
 /// A bench being set up.
@@ -105,7 +107,11 @@ impl StandBuilder {
                     .join(", "),
             });
         }
-        for line in &puppet.buses {
+        for line in puppet
+            .buses
+            .iter()
+            .filter(|line| !plan.real_buses.contains(&line.name))
+        {
             let options = BusOptions {
                 baud: line.baud,
                 seed: plan.seed,

@@ -209,7 +209,7 @@ impl Stand {
 
     /// Ends every fault of a bus.
     pub fn mend(&self, bus: &str) -> Result<(), HandError> {
-        self.with_bus(bus, |bus, now_us| bus.mend(now_us))
+        self.with_bus(bus, firmware_sim::ServoBus::mend)
     }
 
     fn mount(&self, joint: &str) -> Result<&Mount, HandError> {
@@ -269,6 +269,19 @@ impl Stand {
             joint: joint.to_owned(),
             known: String::new(),
         })
+    }
+
+    /// The joints whose bus is not simulated, as the rig sees them; speeds and torque are not known here.
+    pub(crate) fn seen_joints(&self, puppet: &rig::PuppetView) -> Vec<JointTruth> {
+        let real = self
+            .mounts
+            .iter()
+            .filter(|mount| !self.seats.contains_key(&mount.bus));
+        let seen = real.filter_map(|mount| {
+            let view = puppet.joints.iter().find(|view| view.name == mount.joint)?;
+            Some(mount.seen(view.measured_rad?, puppet.torque, view.present))
+        });
+        seen.collect()
     }
 
     /// Begins to note when the host writes to each bus.

@@ -39,6 +39,24 @@ impl Mount {
         self.sign * (shaft_rad - self.shaft_zero_rad)
     }
 
+    /// A real joint: all that is known is what the rig has read.
+    pub(crate) fn seen(&self, position_rad: f64, torque: bool, connected: bool) -> JointTruth {
+        JointTruth {
+            joint: self.joint.clone(),
+            bus: self.bus.clone(),
+            id: self.id,
+            position_rad,
+            velocity_rad_per_s: 0.0,
+            torque,
+            connected,
+            watchdog_trips: 0,
+            torque_ons: 0,
+            range_rad: self.range_rad,
+            speed_max_rad_per_s: self.speed_max_rad_per_s,
+            accel_max_rad_per_s2: self.accel_max_rad_per_s2,
+        }
+    }
+
     pub(crate) fn truth(&self, servo: &Servo) -> JointTruth {
         JointTruth {
             joint: self.joint.clone(),
