@@ -126,6 +126,11 @@ impl Console {
         }
     }
 
+    /// Hands over what was written, to a reader that waits for it.
+    pub(crate) fn flush(&self) -> Result<(), Failure> {
+        self.out.borrow_mut().flush().map_err(Failure::Output)
+    }
+
     /// Writes a table as the result.
     pub(crate) fn table(&self, table: &Table) -> Result<(), Failure> {
         table.lines().try_for_each(|line| self.line(line))

@@ -37,6 +37,11 @@ impl Interrupt {
         }
     }
 
+    /// The flag itself, for loops that look at it on their own.
+    pub(crate) fn flag(&self) -> &AtomicBool {
+        &self.0
+    }
+
     /// Whether to end now.
     pub(crate) fn came(&self) -> bool {
         self.0.load(Ordering::Relaxed)

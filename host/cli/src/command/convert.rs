@@ -1,6 +1,6 @@
 //! `dialrig convert`: one kind of file into another, chosen by their names.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use rig::document::convert::convert;
 use serde::Serialize;
@@ -34,12 +34,7 @@ struct Wrote {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
-    // A bare name lies in the working folder; written out, since it is the folder that is flushed at the end.
-    let in_a_folder = match args.output.parent() {
-        Some(folder) if folder.as_os_str().is_empty() => Path::new(".").join(&args.output),
-        _ => args.output.clone(),
-    };
-    let converted = convert(&args.input, &in_a_folder)?;
+    let converted = convert(&args.input, &args.output)?;
     console.warn(&converted.warnings);
     let wrote = args.output.display().to_string();
     if console.json() {

@@ -1,5 +1,6 @@
 //! The commands: one a file, each with its `Args` (options, help, example) and a `run`.
 
+mod bench;
 mod check;
 mod convert;
 mod curve;
@@ -11,6 +12,7 @@ mod net;
 mod play;
 mod sample;
 mod servo;
+mod sim;
 pub(crate) mod studio;
 
 use clap::Subcommand;
@@ -43,6 +45,10 @@ pub(crate) enum Command {
     Monitor(monitor::Args),
     /// Servos: who is there, their registers, letting go
     Servo(servo::Args),
+    /// Simulated devices for any program
+    Sim(sim::Args),
+    /// Scenarios on a whole rig
+    Bench(bench::Args),
 }
 
 impl Command {
@@ -60,6 +66,8 @@ impl Command {
             Self::Devices(args) => devices::run(args, console),
             Self::Monitor(args) => monitor::run(args, console),
             Self::Servo(args) => servo::run(args, console),
+            Self::Sim(args) => sim::run(args, console),
+            Self::Bench(args) => bench::run(args, console),
         }
     }
 }

@@ -46,6 +46,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         console,
         before: Before::default(),
         events: 0,
+        first_secs: None,
     };
     let mut ended = Ok(());
     while ended.is_ok() && !interrupt.came() {
@@ -81,6 +82,8 @@ struct Teller<'a> {
     console: &'a Console,
     before: Before,
     events: u64,
+    /// When the first event came; times are told from then.
+    first_secs: Option<f64>,
 }
 
 impl Teller<'_> {
@@ -180,19 +183,18 @@ impl Teller<'_> {
 
     fn event(&mut self, heard: &Heard, event: &str, fields: Vec<(&str, Value)>) -> Result<(), Failure> {
         self.events += 1;
+        let t = heard.at_secs - *self.first_secs.get_or_insert(heard.at_secs);
         if !self.console.json() {
             let fields: Vec<String> = fields
                 .iter()
                 .map(|(name, value)| format!("{name} {value}"))
                 .collect();
-            return self.console.line(format_args!(
-                "{:10.3}  {event:<9} {}",
-                heard.at_secs,
-                fields.join("  ")
-            ));
+            return self
+                .console
+                .line(format_args!("{:10.3}  {event:<9} {}", t, fields.join("  ")));
         }
         let mut record = Map::new();
-        record.insert("t".into(), json!((heard.at_secs * 1e6).round() / 1e6));
+        record.insert("t".into(), json!((t * 1e6).round() / 1e6));
         record.insert("event".into(), json!(event));
         record.extend(fields.into_iter().map(|(name, value)| (name.to_owned(), value)));
         self.console.record(&record)

@@ -15,9 +15,7 @@ const PERIOD: Duration = Duration::from_millis(10);
 
 pub(crate) fn run(show: Option<&PathBuf>, console: &Console) -> Result<Exit, Failure> {
     // Before anything else, so that a machine without a display hears of it at once.
-    ui::studio::check().map_err(|error| {
-        Failure::refused(error.to_string()).with_hint("`dialrig demo` shows everything in files")
-    })?;
+    ui::studio::check().map_err(|error| Failure::refused(error.to_string()))?;
     let (show, folder) = setup::show(show.map(PathBuf::as_path), console)?;
     let equipment = Equipment {
         puppet: show.puppet.clone(),

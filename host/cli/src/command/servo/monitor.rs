@@ -56,7 +56,11 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
                 for value in line.read(id, Some(register)).map_err(failed)? {
                     let shown = value.value.unwrap_or(value.raw as f64);
                     record.insert(name.into(), json!(shown));
-                    words.push(format!("{name} {} {}", number::short(shown), value.unit));
+                    words.push(
+                        format!("{name} {} {}", number::short(shown), value.unit)
+                            .trim_end()
+                            .to_owned(),
+                    );
                 }
             }
             if console.json() {

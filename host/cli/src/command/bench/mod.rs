@@ -1,0 +1,33 @@
+//! `dialrig bench`: scenarios on a whole rig.
+
+mod run;
+
+use clap::Subcommand;
+
+use crate::console::Console;
+use crate::failure::{Exit, Failure};
+
+const EXAMPLES: &str = "\
+Example:
+  dialrig bench run tests/scenarios/*.scn";
+
+/// Scenarios: what one would say at the bench, played on a whole rig in virtual time.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What can be done with scenarios.
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Plays scenarios and says what did not come as expected
+    Run(run::Args),
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
+    match &args.command {
+        Command::Run(args) => run::run(args, console),
+    }
+}

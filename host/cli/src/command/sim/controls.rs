@@ -1,0 +1,123 @@
+//! `dialrig sim dial-box` and `sim tablet`: simulated controls, with a script for hands.
+
+use std::path::PathBuf;
+
+use bench::serve::{Event, Output, Served};
+use serde_json::json;
+
+use super::{PlaceArgs, Trace, serve};
+use crate::console::Console;
+use crate::failure::{Exit, Failure};
+use crate::{input, setup};
+
+const DIAL_BOX_EXAMPLES: &str = "\
+Examples:
+  dialrig sim dial-box --pty /tmp/dials
+  dialrig sim dial-box --kind sgi-dialbox-display --pty /tmp/dials --script turn.txt --json
+
+A script has one action a line, seconds counted from when the host first switched reporting on:
+  at 0.5 dial 3 +0.25turns over 1
+  at 2 button 4 down";
+
+const TABLET_EXAMPLES: &str = "\
+Examples:
+  dialrig sim tablet --pty /tmp/tablet
+  dialrig sim tablet --kind digitizer-ii --pty /tmp/tablet --script draw.txt
+
+A script has one action a line, seconds counted from when the host first switched reporting on:
+  at 0.5 puck 0.2 -0.4
+  at 0.7 puck 0.2 -0.4 button 1
+  at 1 puck away";
+
+/// The SGI dial and button box: silent until it is initialised, eight dials, 32 keys and lamps.
+#[derive(Debug, clap::Args)]
+#[command(after_help = DIAL_BOX_EXAMPLES)]
+pub(crate) struct DialBoxArgs {
+    /// Profile of a dial box; `sgi-dialbox-display` has labels
+    #[arg(long, value_name = "NAME", default_value = "sgi-dialbox")]
+    kind: String,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// A Wacom tablet with serial protocol IV.
+#[derive(Debug, clap::Args)]
+#[command(after_help = TABLET_EXAMPLES)]
+pub(crate) struct TabletArgs {
+    /// Profile of a tablet
+    #[arg(long, value_name = "NAME", default_value = "graphire-serial")]
+    kind: String,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Debug, clap::Args)]
+struct Common {
+    #[command(flatten)]
+    place: PlaceArgs,
+    /// What hands do; `-` reads standard input
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
+    /// Writes down every byte
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+}
+
+pub(super) fn dial_box(args: &DialBoxArgs, console: &Console) -> Result<Exit, Failure> {
+    let profiles = setup::profiles()?;
+    let profile = profiles
+        .knobs(&args.kind)
+        .map_err(|error| Failure::refused(error.to_string()))?;
+    play(Served::dial_box(profile), &args.common, console)
+}
+
+pub(super) fn tablet(args: &TabletArgs, console: &Console) -> Result<Exit, Failure> {
+    let profiles = setup::profiles()?;
+    let profile = profiles
+        .tablet(&args.kind)
+        .map_err(|error| Failure::refused(error.to_string()))?;
+    play(Served::tablet(profile), &args.common, console)
+}
+
+fn play(mut device: Served, args: &Common, console: &Console) -> Result<Exit, Failure> {
+    if let Some(path) = &args.script {
+        let source = input::read(path, console)?;
+        let script = device.script(source.text()).map_err(|errors| {
+            let lines: Vec<String> = errors
+                .iter()
+                .map(|error| format!("{}:{error}", path.display()))
+                .collect();
+            Failure::refused(lines.join("\n"))
+        })?;
+        device.play(&script);
+    }
+    let mut trace = args.trace.as_ref().map(Trace::create).transpose()?;
+    serve(device, &args.place, console, &mut |event| {
+        if let Some(trace) = &mut trace {
+            trace.note(event, console);
+        }
+        if let Event::Output(at_us, output) = event {
+            tell(at_us, output, console);
+        }
+    })
+}
+
+/// Says what the device was told to show. A reader that went away does not stop the device.
+fn tell(at_us: u64, output: &Output, console: &Console) {
+    let t = at_us as f64 / 1e6;
+    let told = match output {
+        Output::Lamps(mask) => {
+            let on: Vec<u8> = (0..32).filter(|lamp| mask >> lamp & 1 == 1).collect();
+            if console.json() {
+                console.record(&json!({"t": t, "output": "lamps", "on": on}))
+            } else {
+                console.line(format_args!("{t:10.3}  lamps {on:?}"))
+            }
+        }
+        Output::Label { control, text } if console.json() => {
+            console.record(&json!({"t": t, "output": "label", "control": control, "text": text.trim_end()}))
+        }
+        Output::Label { control, text } => console.line(format_args!("{t:10.3}  label {control} {text}")),
+    };
+    let _ = told.and_then(|()| console.flush());
+}
