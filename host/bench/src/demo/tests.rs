@@ -38,6 +38,22 @@ fn two_keys_are_entered_and_performed() {
 }
 
 #[test]
+fn the_same_story_is_told_the_same_way() {
+    let mut listener = |_: Scene<'_>| ControlFlow::Continue(());
+    let first = run(options(2), &mut listener).expect("told");
+    let second = run(options(2), &mut listener).expect("told again");
+    assert_eq!(first.report, second.report);
+    assert_eq!(first.rows, second.rows);
+    let last = options(2).show.current_clip().expect("a clip").keys[1].secs;
+    let entered = first.show.current_clip().expect("entered").keys[1].secs;
+    // A count of the time dial is 1/64 s.
+    assert!(
+        (entered - last).abs() <= 1.0 / 128.0 + 1e-9,
+        "{entered} for {last}"
+    );
+}
+
+#[test]
 fn a_listener_may_stop_it_safely() {
     let mut steps = 0;
     let error = run(options(2), &mut |_| {

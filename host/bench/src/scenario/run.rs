@@ -154,8 +154,9 @@ struct Play<'a> {
     /// The joints one and two steps before.
     past: [Vec<JointTruth>; 2],
     mark: Vec<JointTruth>,
-    /// When the last `at` was.
+    /// When the last `at` was, and its line and column: hands refused later are its doing.
     at_secs: f64,
+    at_place: (u32, u32),
     failures: Vec<Failure>,
 }
 
@@ -172,6 +173,7 @@ impl<'a> Play<'a> {
             truths,
             mark: Vec::new(),
             at_secs: 0.0,
+            at_place: (0, 0),
             failures: Vec::new(),
         }
     }
@@ -194,6 +196,7 @@ impl<'a> Play<'a> {
             (When::At(at_secs), what) => {
                 self.run_to(at_secs);
                 self.at_secs = at_secs;
+                self.at_place = (line.number, line.column);
                 match what {
                     What::Do(doing) => self.act(doing, &line.text),
                     What::Check(check) => self.judge(check).map_err(|found| self.found(&found)),
@@ -302,10 +305,12 @@ impl<'a> Play<'a> {
             }
         }
         for error in self.world.take_refused() {
+            let (line, column) = self.at_place;
+            let message = error.to_string();
             self.failures.push(Failure {
-                line: 1,
-                column: 1,
-                message: error.to_string(),
+                line,
+                column,
+                message,
             });
         }
     }

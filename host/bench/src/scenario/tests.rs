@@ -127,6 +127,17 @@ fn what_cannot_begin_is_a_failure_too() {
 }
 
 #[test]
+fn hands_that_are_refused_are_the_failure_of_their_line() {
+    let outcome = outcome("use seed 3\n  at 0.1 unplug toaster\n");
+    let failure = &outcome.failures[0];
+    assert_eq!((failure.line, failure.column, outcome.seed), (2, 3, 3));
+    assert!(
+        failure.message.contains("there are: dial-box, tablet"),
+        "{failure:?}"
+    );
+}
+
+#[test]
 fn junit_is_escaped_and_names_the_seed() {
     let mut one = outcome("by 0.02 label dial 1 is \"<&>\"\n");
     one.failures[0].message.push_str(" \"<&>\"\u{1}");
