@@ -17,12 +17,22 @@ mod table;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 
 use console::Console;
 
 fn main() -> ExitCode {
     let args = args::Args::parse();
+    if let Some(word) = args.show.as_ref().filter(|show| !show.exists()) {
+        let message = format!(
+            "`{}` is neither a command nor a show that is there",
+            word.display()
+        );
+        args::Args::command()
+            .error(ErrorKind::InvalidSubcommand, message)
+            .exit();
+    }
     let console = Console::new(args.showing);
     let result = match &args.command {
         Some(command) => command.run(&console),

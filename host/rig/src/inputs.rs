@@ -7,7 +7,7 @@ use device::clock::Instant;
 use device::codec::{Feedback, InputEvent, Stamped};
 use device::transport::{Transport, TransportError};
 use device::{Device, Health, UnknownFormat};
-use device_profiles::{ProfileError, Profiles};
+use device_profiles::Profiles;
 
 use crate::desk::Source;
 use crate::ports::Ports;
@@ -31,13 +31,15 @@ pub struct InputSpec {
 /// A device cannot be used as described.
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
-    /// No such profile; the message lists what there is.
-    #[error("input {name}: {source}")]
+    /// No such profile.
+    #[error("input {name}: there is no profile \"{profile}\" of a dial box or tablet; there are: {known}")]
     Profile {
         /// The device.
         name: String,
-        /// Why.
-        source: ProfileError,
+        /// What was asked for.
+        profile: String,
+        /// What there is.
+        known: String,
     },
     /// Two devices of one name.
     #[error("two inputs are called {name}; names must differ")]
@@ -45,6 +47,15 @@ pub enum InputError {
         /// The name.
         name: String,
     },
+}
+
+/// Keys of all profiles of input devices.
+pub(crate) fn known_profiles(profiles: &Profiles) -> String {
+    let knobs = profiles.all_knobs().map(|p| p.key.as_str());
+    knobs
+        .chain(profiles.tablets().map(|p| p.key.as_str()))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// All input devices.
@@ -157,12 +168,11 @@ impl Seat {
                 let make: Make = Box::new(move |line| Device::knobs(name.clone(), &profile, line));
                 (make, knobs.baud, f64::from(knobs.counts_per_turn), knobs.dials)
             } else {
-                let tablet = profiles
-                    .tablet(&spec.profile)
-                    .map_err(|source| InputError::Profile {
-                        name: spec.name.clone(),
-                        source,
-                    })?;
+                let tablet = profiles.tablet(&spec.profile).map_err(|_| InputError::Profile {
+                    name: spec.name.clone(),
+                    profile: spec.profile.clone(),
+                    known: known_profiles(profiles),
+                })?;
                 let profile = tablet.clone();
                 let make: Make = Box::new(move |line| Device::tablet(name.clone(), &profile, line));
                 (make, tablet.baud, 1.0, 0)

@@ -7,8 +7,9 @@ use device::clock::{Clock, Instant};
 use device::codec::{InputEvent, Stamped, Tool};
 use device::transport::TransportError;
 use device::{Device, Health, UnknownFormat};
-use device_profiles::{ProfileError, Profiles};
+use device_profiles::Profiles;
 
+use crate::inputs::known_profiles;
 use crate::ports::Ports;
 
 /// Something a device said, in its own counts and numbering.
@@ -67,9 +68,14 @@ pub enum HeardEvent {
 /// A device cannot be listened to.
 #[derive(Debug, thiserror::Error)]
 pub enum ListenError {
-    /// No such profile; the message lists what there is.
-    #[error(transparent)]
-    Profile(#[from] ProfileError),
+    /// No such profile.
+    #[error("there is no profile \"{profile}\" of a dial box or tablet; there are: {known}")]
+    Profile {
+        /// What was asked for.
+        profile: String,
+        /// What there is.
+        known: String,
+    },
     /// The profile's format is not known here.
     #[error(transparent)]
     Format(#[from] UnknownFormat),
@@ -101,7 +107,10 @@ impl Listener {
         let device = if let Ok(knobs) = profiles.knobs(profile) {
             Device::knobs(address, knobs, ports.open(address, knobs.baud)?)?
         } else {
-            let tablet = profiles.tablet(profile)?;
+            let tablet = profiles.tablet(profile).map_err(|_| ListenError::Profile {
+                profile: profile.to_owned(),
+                known: known_profiles(profiles),
+            })?;
             Device::tablet(address, tablet, ports.open(address, tablet.baud)?)?
         };
         let began = clock.now();

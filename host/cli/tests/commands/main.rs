@@ -3,6 +3,7 @@
 mod curve;
 mod documents;
 mod figure;
+mod live;
 mod net;
 mod streams;
 mod usage;
@@ -63,6 +64,9 @@ fn dialrig(args: &str) -> Command {
         .args(args.split_whitespace())
         .current_dir(root())
         .env_remove("NO_COLOR")
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());

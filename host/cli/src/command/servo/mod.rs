@@ -65,7 +65,7 @@ impl LineArgs {
             rig::real_time(),
             profiles,
         )
-        .map_err(failed)
+        .map_err(|error| Failure::refused(error.to_string()))
     }
 }
 

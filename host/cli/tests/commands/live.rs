@@ -1,0 +1,151 @@
+//! Commands that speak to devices: what they refuse, and whole conversations between two of them.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command};
+
+use crate::{ANY, call, check, dialrig};
+
+#[test]
+fn what_cannot_be_opened_is_refused_in_words() {
+    check(
+        &[
+            ("wrong.scn", b"at 0.1 turn dial\n"),
+            (
+                "fails.scn",
+                b"at 0.1 turn dial 1 by 0.25 turns\nby 0.2 player is holding\n",
+            ),
+        ],
+        &[
+            call("", 1, &[], &["there is no display", "dialrig demo"]),
+            call("shows/salute", 1, &[], &["there is no display"]),
+            call(
+                "servo ping --port /dev/nothing-here 1",
+                1,
+                &[],
+                &["/dev/nothing-here: not found"],
+            ),
+            call(
+                "servo ping --port nowhere 1",
+                1,
+                &[],
+                &["\"nowhere\" is not an address"],
+            ),
+            call(
+                "servo ping --port /dev/null 300",
+                2,
+                &[],
+                &["300 is not in 0..=252"],
+            ),
+            call(
+                "monitor sim:dial-box --profile nonsense",
+                1,
+                &[],
+                &["nonsense", "sgi-dialbox"],
+            ),
+            call(
+                "play shows/salute --puppet nobody",
+                1,
+                &[],
+                &["nobody", "marionette"],
+            ),
+            call(
+                "play shows/salute --port tcp:127.0.0.1:1",
+                1,
+                &[],
+                &["2 buses", "1 ports were given", "--port"],
+            ),
+            call("play shows/salute --rate 9999", 2, &[], &["expected 10 to 500"]),
+            call("sim servo-bus --servo XL430-W250:1", 2, &[], &["--pty <PATH>"]),
+            call(
+                "sim servo-bus --servo NOSUCH:1 --tcp 127.0.0.1:0",
+                1,
+                &[],
+                &["NOSUCH"],
+            ),
+            call(
+                "sim servo-bus --servo XL430-W250:9-1 --tcp 127.0.0.1:0",
+                1,
+                &[],
+                ANY,
+            ),
+            call(
+                "sim dial-box --script nosuch.txt --tcp 127.0.0.1:0",
+                1,
+                &[],
+                &["nosuch.txt"],
+            ),
+            call("bench run wrong.scn", 1, &[], &["wrong.scn:1:"]),
+            call("bench run fails.scn", 1, &["FAIL fails"], ANY),
+            call("bench run nosuch.scn", 1, &[], &["nosuch.scn"]),
+            call("devices --json", 0, &[r#"{"address":"sim:dial-box""#], ANY),
+        ],
+    );
+}
+
+/// A simulated device on a TCP port, and where it is.
+struct Simulated {
+    child: Child,
+    address: String,
+}
+
+impl Simulated {
+    fn start(args: &str) -> Self {
+        let mut child = dialrig(&format!("{args} --tcp 127.0.0.1:0"))
+            .spawn()
+            .expect("starts");
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().expect("piped"))
+            .read_line(&mut line)
+            .expect("a line");
+        let address = line
+            .trim()
+            .strip_prefix("ready ")
+            .expect("it says where it is")
+            .to_owned();
+        Self { child, address }
+    }
+}
+
+impl Drop for Simulated {
+    fn drop(&mut self) {
+        let _ = Command::new("kill")
+            .args(["-INT", &self.child.id().to_string()])
+            .status();
+        let _ = self.child.wait();
+    }
+}
+
+#[test]
+fn servos_are_found_read_and_let_go() {
+    let bus = Simulated::start("sim servo-bus --servo XL430-W250:2-3,XL330-M288:7 --wire none");
+    let run = |args: &str| {
+        let output = dialrig(&args.replace("PORT", &bus.address))
+            .output()
+            .expect("runs");
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stdout).into_owned(),
+        )
+    };
+    let (exit, found) = run("servo scan --port PORT --only --json");
+    let ids: Vec<&str> = found.lines().map(|line| &line[..7]).collect();
+    assert_eq!(
+        (exit, ids),
+        (Some(0), vec![r#"{"id":2"#, r#"{"id":3"#, r#"{"id":7"#]),
+        "{found}"
+    );
+    let (exit, pinged) = run("servo ping --port PORT 7");
+    assert_eq!(
+        (exit, pinged.as_str()),
+        (Some(0), "servo 7: XL330-M288, firmware 53\n")
+    );
+    let (exit, read) = run("servo read --port PORT 3 ID --json");
+    assert_eq!(exit, Some(0));
+    assert!(read.contains(r#""register":"ID","address":7,"raw":3"#), "{read}");
+    assert_eq!(run("servo release --port PORT").0, Some(0));
+    assert_eq!(
+        run("servo ping --port PORT 99").0,
+        Some(3),
+        "a servo that is silent is a device's fault"
+    );
+}
