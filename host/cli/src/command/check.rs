@@ -2,10 +2,12 @@
 //!
 //! With `--json` the findings are the result and go to standard output.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use bench::scenario::Scenario;
 use rig::document::Findings;
 use rig::document::check::check_file;
+use rig::document::source::Source;
 
 use crate::console::{Console, RemarkRecord, Weight};
 use crate::failure::{Exit, Failure};
@@ -15,8 +17,8 @@ Examples:
   dialrig check shows/salute
   dialrig check walk.bvh networks/*.ps300 --json";
 
-/// Checks show folders, show.toml, clips (.toml), .str, .pri, .shp, .ps300 and .bvh; exits with 1 if one of
-/// them has an error.
+/// Checks show folders, show.toml, clips and hardware profiles (.toml), .str, .pri, .shp, .ps300, .bvh, journals
+/// (.jsonl) and scenarios (.scn); exits with 1 if one of them has an error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -29,7 +31,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let progress = console.progress(args.files.len() as u64, "checking");
     let mut found = Findings::default();
     for file in &args.files {
-        let here = check_file(file);
+        let here = check_one(file);
         found.errors.extend(here.errors);
         found.warnings.extend(here.warnings);
         progress.inc(1);
@@ -49,6 +51,28 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     } else {
         Ok(Exit::Refused)
     }
+}
+
+/// Scenarios belong to the bench; all other kinds are the rig's.
+fn check_one(file: &Path) -> Findings {
+    if file.extension().is_none_or(|extension| extension != "scn") {
+        return check_file(file);
+    }
+    let mut found = Findings::default();
+    match Source::open(file) {
+        Err(error) => found.error(error),
+        Ok(source) => {
+            let folder = file.parent().unwrap_or(Path::new(""));
+            for error in Scenario::parse("", folder, source.text())
+                .err()
+                .into_iter()
+                .flatten()
+            {
+                found.error(source.error_at((error.line, error.column), error.message));
+            }
+        }
+    }
+    found
 }
 
 /// Shows findings: for programs as the result, for people beside it.

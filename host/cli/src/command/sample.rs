@@ -5,17 +5,20 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use motion::{Clip, Figure, FigurePose};
 use rig::document::convert::read_show;
+use rig::puppet::{Body, Follower};
 use serde::Serialize;
 
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
 use crate::number;
+use crate::setup;
 
 const EXAMPLES: &str = "\
 Examples:
   dialrig sample shows/salute --fps 30 > salute.jsonl
-  dialrig sample walk.bvh --at 0,0.5,1";
+  dialrig sample walk.bvh --at 0,0.5,1
+  dialrig sample walk.bvh --of joints --puppet marionette";
 
 /// Samples the motion of a show: one JSON object a line, `{\"t\":…,\"name\":…,\"start\":[…],\"end\":[…]}`, in
 /// the axes and units of its file.
@@ -34,6 +37,9 @@ pub(crate) struct Args {
     /// What is sampled
     #[arg(long, value_enum, default_value_t = Of::Links)]
     of: Of,
+    /// Another puppet than the show's, for joints
+    #[arg(long, value_name = "NAME")]
+    puppet: Option<String>,
 }
 
 /// What can be sampled.
@@ -41,6 +47,8 @@ pub(crate) struct Args {
 enum Of {
     /// Where each link of the figure starts and ends
     Links,
+    /// The angle of each joint of the show's puppet as it follows the figure
+    Joints,
 }
 
 /// One link at one time.
@@ -50,6 +58,14 @@ struct LinkRecord<'a> {
     name: &'a str,
     start: [f64; 3],
     end: [f64; 3],
+}
+
+/// One joint at one time.
+#[derive(Serialize)]
+struct JointRecord<'a> {
+    t: f64,
+    name: &'a str,
+    angle_rad: f64,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
@@ -70,8 +86,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         .map_err(|error| still(&error.to_string()))?
         .ok_or_else(no_keys)?;
     let fps = args.fps.unwrap_or_else(|| doc.export_frame_secs().recip());
+    let times = Times::of(args, fps, &clip);
     match args.of {
-        Of::Links => links(&figure.figure, &clip, &Times::of(args, fps, &clip), console),
+        Of::Links => links(&figure.figure, &clip, &times, console),
+        Of::Joints => {
+            let body = Body::of_show(&show, args.puppet.as_deref(), &*setup::profiles()?)
+                .map_err(|error| Failure::refused(error.to_string()))?;
+            joints(&body, &clip, &times, console)
+        }
     }
 }
 
@@ -128,6 +150,27 @@ fn links(figure: &Figure, clip: &Clip, times: &Times<'_>, console: &Console) -> 
                 start: placed.start.to_array(),
                 end: placed.end.to_array(),
             })?;
+        }
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    Ok(Exit::Done)
+}
+
+/// Each row begins near the one before, so that a joint does not jump between two answers.
+fn joints(body: &Body, clip: &Clip, times: &Times<'_>, console: &Console) -> Result<Exit, Failure> {
+    let interrupt = Interrupt::listen();
+    let progress = console.progress(times.count(), "sampling");
+    let (mut follower, mut placed) = (Follower::new(body), Vec::new());
+    for index in 0..times.count() {
+        if interrupt.came() {
+            return Err(Failure::interrupted());
+        }
+        let t = times.secs(index);
+        clip.place(t, &mut placed);
+        let angles_rad = follower.follow(&placed);
+        for (name, &angle_rad) in body.joints().iter().zip(angles_rad) {
+            console.record(&JointRecord { t, name, angle_rad })?;
         }
         progress.inc(1);
     }

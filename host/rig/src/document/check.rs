@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use device_profiles::ProfileError;
 use ps300::language::{self, Severity};
 
 use super::bvh;
@@ -12,8 +13,10 @@ use super::folder;
 use super::show::Show;
 use super::source::Source;
 use super::structure;
+use crate::journal::{JournalError, Script};
 
-/// Checks a show folder, `show.toml`, `.str`, `.pri`, `.shp`, `.ps300`, `.bvh`, or the `.toml` of a clip.
+/// Checks a show folder, `show.toml`, `.str`, `.pri`, `.shp`, `.ps300`, `.bvh`, a journal, or the `.toml` of a clip or
+/// a hardware profile.
 pub fn check_file(path: &Path) -> Findings {
     let mut found = Findings::default();
     let extension = path
@@ -24,15 +27,16 @@ pub fn check_file(path: &Path) -> Findings {
         Some("toml") if path.file_name().is_some_and(|name| name == "show.toml") => {
             check_show(path, &mut found);
         }
-        Some("toml") => with_source(path, &mut found, check_clip),
+        Some("toml") => with_source(path, &mut found, check_toml),
         Some("str") => with_source(path, &mut found, |source, found| {
             structure::read(source, found);
         }),
         Some("pri" | "shp" | "ps300") => with_source(path, &mut found, check_network),
         Some("bvh") => with_source(path, &mut found, check_bvh),
+        Some("jsonl") => with_source(path, &mut found, check_journal),
         _ => {
             let error = FileError::whole(path, "this is no kind of file that is known here");
-            found.error(error.with_hint("known: a show folder, .toml, .str, .pri, .shp, .ps300, .bvh"));
+            found.error(error.with_hint("known: a show folder, .toml (clip, profile), .str, .pri, .shp, .ps300, .bvh, .jsonl (journal), .scn"));
         }
     }
     found
@@ -123,6 +127,67 @@ fn check_bvh(source: &Source, found: &mut Findings) {
     match bvh::import(source, "checked") {
         Ok(imported) => found.warnings.extend(imported.warnings),
         Err(errors) => take(errors, found),
+    }
+}
+
+/// Clips and shows carry a version; hardware profiles are known by their tables.
+fn check_toml(source: &Source, found: &mut Findings) {
+    match device_profiles::read_file(source.path()) {
+        Ok(_) => {}
+        Err(errors)
+            if errors
+                .iter()
+                .any(|e| matches!(e, ProfileError::UnknownKind { .. })) =>
+        {
+            check_clip(source, found);
+        }
+        // A text that is no TOML at all is judged as what its folder says it is.
+        Err(_)
+            if source
+                .path()
+                .parent()
+                .is_some_and(|folder| folder.ends_with("clips")) =>
+        {
+            check_clip(source, found);
+        }
+        Err(errors) => errors
+            .iter()
+            .for_each(|error| found.error(of_profile(source, error))),
+    }
+}
+
+fn of_profile(source: &Source, error: &ProfileError) -> FileError {
+    match error {
+        ProfileError::Syntax {
+            line,
+            column,
+            message,
+            ..
+        }
+        | ProfileError::Contradiction {
+            line,
+            column,
+            message,
+            ..
+        } => source.error_at((*line as u32, *column as u32), message.clone()),
+        other => FileError::whole(source.path(), other.to_string()),
+    }
+}
+
+fn check_journal(source: &Source, found: &mut Findings) {
+    match Script::parse(source.text()) {
+        Ok(script) if script.ending.is_none() => {
+            let words = "the journal has no end record: it was cut, or is still being written";
+            found.warn(FileError::whole(source.path(), words));
+        }
+        Ok(_) => {}
+        Err(JournalError::Line { line, found: what }) => {
+            found.error(source.error_at(
+                (line as u32, 1),
+                format!("expected a journal record, found {what}"),
+            ));
+        }
+        Err(other) => found.error(FileError::whole(source.path(), other.to_string())),
     }
 }
 

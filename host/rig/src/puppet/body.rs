@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use device_profiles::{PuppetGroup, PuppetProfile};
+use device_profiles::{ProfileError, Profiles, PuppetGroup, PuppetProfile};
 use glam::{DMat3, DQuat, DVec3};
 use motion::retarget::Group;
 use motion::{
@@ -14,9 +14,20 @@ use motion::{
     JointKind, LinkIndex, LinkSpec, Placed, Retarget, RetargetError, RetargetReport, Rigid,
 };
 
+use crate::document::Show;
+
 /// Why a puppet cannot follow a figure.
 #[derive(Debug, thiserror::Error)]
 pub enum BodyError {
+    /// Nobody to follow.
+    #[error("this show has no figure that a puppet could follow")]
+    NoFigure,
+    /// Nobody to follow it.
+    #[error("this show names no puppet; name one in show.toml")]
+    NoPuppet,
+    /// No such puppet; the message lists what there is.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
     /// The figure lacks a link the puppet needs.
     #[error("puppet {puppet} follows link {link}, which the figure does not have; its links are {known}")]
     NoSuchLink {
@@ -106,6 +117,17 @@ impl Body {
             retarget,
             leaders,
         })
+    }
+
+    /// Lets the puppet a show names, or another one, follow the show's figure.
+    pub fn of_show(show: &Show, puppet: Option<&str>, profiles: &Profiles) -> Result<Self, BodyError> {
+        let figure = show.figure.as_ref().ok_or(BodyError::NoFigure)?;
+        let name = puppet.or(show.puppet.as_deref()).ok_or(BodyError::NoPuppet)?;
+        Self::new(
+            profiles.puppet(name)?,
+            &figure.figure,
+            figure.rest_frames().as_deref(),
+        )
     }
 
     /// Joint names, in the order of all rows of angles.
