@@ -1,6 +1,9 @@
 //! The whole rig under test, in one binary.
 
+mod anomalies;
 mod directions;
 mod golden;
+mod properties;
+mod rehearsal;
 mod source;
 mod tidy;

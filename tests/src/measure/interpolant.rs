@@ -27,10 +27,11 @@ const ROUNDS: usize = 15;
 const PARENTS: [usize; LINKS] = [0, 0, 1, 2, 3, 1, 5, 6, 1, 8, 9, 10, 8, 12, 13];
 
 /// A reproducible stream of numbers in 0..1 (splitmix64).
-pub(crate) struct Chance(pub(crate) u64);
+pub struct Chance(pub u64);
 
 impl Chance {
-    pub(crate) fn next(&mut self) -> f64 {
+    /// The next number.
+    pub fn next_unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -39,7 +40,7 @@ impl Chance {
     }
 
     fn point(&mut self) -> DVec3 {
-        let mut signed = || 2.0 * self.next() - 1.0;
+        let mut signed = || 2.0 * self.next_unit() - 1.0;
         DVec3::new(signed(), signed(), signed())
     }
 }
@@ -67,7 +68,7 @@ fn clip(figure: &Arc<Figure>, chance: &mut Chance) -> anyhow::Result<Clip> {
     for _ in 0..KEYS {
         let link = |chance: &mut Chance| LinkPose {
             direction: chance.point() + DVec3::Z * 1e-3,
-            twist_rad: 3.0 * (2.0 * chance.next() - 1.0),
+            twist_rad: 3.0 * (2.0 * chance.next_unit() - 1.0),
             length: 0.2,
         };
         let links = (0..LINKS).map(|_| link(chance)).collect();
@@ -76,7 +77,7 @@ fn clip(figure: &Arc<Figure>, chance: &mut Chance) -> anyhow::Result<Clip> {
             secs,
             pose: FigurePose { root, links },
         });
-        secs += SPAN_SECS / KEYS as f64 * (0.6 + 0.8 * chance.next());
+        secs += SPAN_SECS / KEYS as f64 * (0.6 + 0.8 * chance.next_unit());
     }
     Ok(Clip::build(&keyframes)?)
 }
@@ -135,7 +136,7 @@ fn forward<'a>(row: &str, clips: &'a [Clip], places: usize) -> Subject<'a> {
 fn random<'a>(row: &str, clips: &'a [Clip], places: usize) -> Subject<'a> {
     let mut placed: Vec<Placed> = Vec::new();
     let mut chance = Chance(2);
-    let times: Vec<f64> = (0..places).map(|_| chance.next() * SPAN_SECS).collect();
+    let times: Vec<f64> = (0..places).map(|_| chance.next_unit() * SPAN_SECS).collect();
     let repeat = move || {
         let nanos = nanos_per(places * LINKS, || {
             for (clip, secs) in clips.iter().cycle().zip(&times) {
