@@ -4,7 +4,6 @@
 //! the same snapshots, bytes and journal, every time. With a device under test the clock is the system's and the
 //! puppet has its own thread; nothing else differs.
 
-use std::collections::BTreeMap;
 use std::io::Write;
 use std::sync::Arc;
 use std::time::Duration;
@@ -201,7 +200,9 @@ impl World {
         };
         equipment.plan.real_buses = dut.iter().flat_map(|dut| dut.ports.keys().cloned()).collect();
         let stand = equipment.stand(Arc::clone(&clock), &profiles)?;
-        let recorder = journal.map(|sink| Recorder::new(sink, BTreeMap::new()));
+        // A show that cannot be written as files can still be played; its journal then says nothing of it.
+        let texts = rig::document::texts(&show).unwrap_or_default();
+        let recorder = journal.map(|sink| Recorder::new(sink, texts));
         let ports = Box::new(MixedPorts::new(SimPorts::new(stand.clone())));
         let ports: Box<dyn Ports> = match &recorder {
             Some(recorder) => Box::new(RecordingPorts::new(ports, recorder.clone())),

@@ -89,7 +89,7 @@ fn keep(moments: &mut Vec<Moment>, scene: &Scene<'_>, console: &Console) {
             caption(scene.chapter)
         ));
     }
-    if scene.snapshot.step % KEEP_EVERY == 0 || said != Some(scene.chapter) || scene.key_stored {
+    if scene.snapshot.step.is_multiple_of(KEEP_EVERY) || said != Some(scene.chapter) || scene.key_stored {
         moments.push(Moment {
             chapter: scene.chapter,
             snapshot: Arc::clone(scene.snapshot),

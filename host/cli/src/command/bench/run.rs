@@ -1,6 +1,6 @@
 //! `dialrig bench run`: plays scenarios.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use bench::scenario::{self, Outcome, RunOptions, Scenario};
 use serde_json::json;
@@ -60,13 +60,13 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     Ok(if failed == 0 { Exit::Done } else { Exit::Refused })
 }
 
-fn read(file: &PathBuf, console: &Console) -> Result<Scenario, Failure> {
+fn read(file: &Path, console: &Console) -> Result<Scenario, Failure> {
     let source = input::read(file, console)?;
     let name = file
         .file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())
         .unwrap_or_default();
-    let folder = file.parent().unwrap_or(std::path::Path::new(""));
+    let folder = file.parent().unwrap_or(Path::new(""));
     Scenario::parse(&name, folder, source.text()).map_err(|errors| {
         let lines: Vec<String> = errors
             .iter()
@@ -76,7 +76,7 @@ fn read(file: &PathBuf, console: &Console) -> Result<Scenario, Failure> {
     })
 }
 
-fn tell(outcome: &Outcome, file: &std::path::Path, console: &Console) -> Result<(), Failure> {
+fn tell(outcome: &Outcome, file: &Path, console: &Console) -> Result<(), Failure> {
     if console.json() {
         let failures: Vec<_> = outcome
             .failures
