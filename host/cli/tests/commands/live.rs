@@ -8,13 +8,7 @@ use crate::{ANY, call, check, dialrig};
 #[test]
 fn what_cannot_be_opened_is_refused_in_words() {
     check(
-        &[
-            ("wrong.scn", b"at 0.1 turn dial\n"),
-            (
-                "fails.scn",
-                b"at 0.1 turn dial 1 by 0.25 turns\nby 0.2 player is holding\n",
-            ),
-        ],
+        &[],
         &[
             call("", 1, &[], &["there is no display", "dialrig demo"]),
             call("shows/salute", 1, &[], &["there is no display"]),
@@ -55,6 +49,22 @@ fn what_cannot_be_opened_is_refused_in_words() {
                 &["2 buses", "1 ports were given", "--port"],
             ),
             call("play shows/salute --rate 9999", 2, &[], &["expected 10 to 500"]),
+            call("devices --json", 0, &[r#"{"address":"sim:dial-box""#], ANY),
+        ],
+    );
+}
+
+#[test]
+fn simulators_and_scenarios_are_refused_in_words() {
+    check(
+        &[
+            ("wrong.scn", b"at 0.1 turn dial\n"),
+            (
+                "fails.scn",
+                b"at 0.1 turn dial 1 by 0.25 turns\nby 0.2 player is holding\n",
+            ),
+        ],
+        &[
             call("sim servo-bus --servo XL430-W250:1", 2, &[], &["--pty <PATH>"]),
             call(
                 "sim servo-bus --servo NOSUCH:1 --tcp 127.0.0.1:0",
@@ -77,7 +87,6 @@ fn what_cannot_be_opened_is_refused_in_words() {
             call("bench run wrong.scn", 1, &[], &["wrong.scn:1:"]),
             call("bench run fails.scn", 1, &["FAIL fails"], ANY),
             call("bench run nosuch.scn", 1, &[], &["nosuch.scn"]),
-            call("devices --json", 0, &[r#"{"address":"sim:dial-box""#], ANY),
         ],
     );
 }
