@@ -7,3 +7,4 @@ mod properties;
 mod rehearsal;
 mod source;
 mod tidy;
+mod witness;

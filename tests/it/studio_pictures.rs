@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use bench::hands::Movement;
 use bench::world::{DIAL_BOX, Equipment, TABLET, World, WorldOptions};
-use rig::{Command, DeviceHealth, PoseCommand, PuppetCommand, PuppetState, Snapshot, Touch, TransportCommand};
+use firmware_sim::hands::Turn;
+use rig::{Command, DeviceHealth, PoseCommand, PuppetCommand, PuppetState, Snapshot, TransportCommand};
 use ui::render::film::write_png;
 use ui::render::picture::Picture;
 use ui::studio::Studio;
@@ -35,16 +36,32 @@ pub fn first() -> Arc<Snapshot> {
     Arc::clone(world().run_for(0.5))
 }
 
+/// A hand turns a dial of the box.
+fn turn(world: &mut World, dial: u8, turns: f64, over_secs: f64) {
+    let by = Turn::Turns(turns);
+    let control = dial - 1;
+    world.hands().begin(DIAL_BOX, 0.0, Movement::Turn { control, by, over_secs });
+}
+
+/// A view from which depth can be seen, by dials 1 and 2.
+fn turn_view(world: &mut World) {
+    turn(world, 1, 0.13, 0.4);
+    turn(world, 2, 0.09, 0.4);
+    world.run_for(1.0);
+}
+
 /// Both hands at work: the right one moves the puck over the tablet, and with it the forearm.
 pub fn posing() -> Arc<Snapshot> {
     let mut world = world();
+    turn_view(&mut world);
     world.step([
         Command::Transport(TransportCommand::Seek { secs: 1.95 }),
         Command::Pose(PoseCommand::Select(6)),
     ]);
     world.run_for(0.1);
-    world.hands().begin(TABLET, 0.0, Movement::Glide { to: [0.18, 0.42], over_secs: 0.5 });
-    world.hands().begin(TABLET, 0.6, Movement::Glide { to: [0.32, 0.55], over_secs: 0.4 });
+    world.hands().begin(TABLET, 0.0, Movement::Glide { to: [0.10, 0.25], over_secs: 0.5 });
+    world.hands().begin(TABLET, 0.6, Movement::Glide { to: [0.13, 0.25], over_secs: 0.4 });
+    turn(&mut world, 4, 0.2, 0.6);
     Arc::clone(world.run_for(0.9))
 }
 
@@ -64,8 +81,9 @@ fn state(seen: &Snapshot) -> Option<PuppetState> {
 /// The puppet in the middle of its salute.
 fn performing() -> World {
     let mut world = armed();
-    world.step([Command::Puppet(PuppetCommand::Play)]);
-    let there = |seen: &Snapshot, _: &_| seen.puppet.as_ref().is_some_and(|p| p.clip_secs > Some(2.2));
+    turn_view(&mut world);
+    world.step([Command::Pose(PoseCommand::Select(4)), Command::Puppet(PuppetCommand::Play)]);
+    let there = |seen: &Snapshot, _: &_| seen.puppet.as_ref().is_some_and(|p| p.clip_secs > Some(1.75));
     world.run_until("the salute", 20.0, there).expect("it performs");
     world
 }
