@@ -99,7 +99,7 @@ impl Failure {
 
     /// Ended by Ctrl-C while a puppet may have been moving.
     pub(crate) fn stopped(torque_off: bool) -> Self {
-        Self::interrupted().after_release(torque_off)
+        Self::refused("stopped; torque is off").after_release(torque_off)
     }
 
     /// Ended by Ctrl-C before all was done.

@@ -26,8 +26,10 @@ const WAITING: usize = 128;
 /// A puppet that has not armed or let go by then never will.
 const PATIENCE_SECS: f64 = 10.0;
 
-/// Plays a show's clip on a servo puppet: starts softly from wherever the puppet stands, keeps every limit, and lets
-/// go at the end. Ctrl-C stops safely.
+/// A show on a servo puppet, without a window
+///
+/// Plays a show's clip: starts softly from wherever the puppet stands, keeps every limit, and lets go at the end.
+/// Ctrl-C stops safely.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -70,6 +72,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
             Failure::refused("the show names no puppet").with_hint("name one with --puppet, or in show.toml")
         );
     };
+    let keys_secs = show
+        .current_clip()
+        .map(|clip| clip.times_secs())
+        .unwrap_or_default();
+    if let Some(end_secs) = keys_secs.last().filter(|end_secs| args.from >= **end_secs) {
+        let message = format!("--from {}: the clip ends at {end_secs} s", args.from);
+        return Err(Failure::refused(message).with_hint("begin before its end"));
+    }
     if args.ports.is_empty() {
         console.remark("no --port: playing on the simulated puppet");
     }
@@ -155,7 +165,7 @@ impl Performance<'_> {
         let mut began_secs = None;
         loop {
             if interrupt.came() {
-                return Err(Failure::interrupted());
+                return Err(Failure::stopped(true));
             }
             let Ok(seen) = snapshots.recv_timeout(Duration::from_secs(1)) else {
                 return Err(Failure::device("the rig has stopped"));
@@ -176,8 +186,8 @@ impl Performance<'_> {
                 let why = puppet
                     .fault
                     .clone()
-                    .unwrap_or_else(|| format!("the puppet did not become {wanted:?} in time"));
-                return Err(Failure::device(why));
+                    .unwrap_or_else(|| format!("it did not become {wanted:?} in time").to_lowercase());
+                return Err(Failure::device(format!("puppet {}: {why}", puppet.name)));
             }
         }
     }
@@ -188,7 +198,11 @@ impl Performance<'_> {
             self.notes_told = 0;
         }
         for note in &seen.notes[self.notes_told..] {
-            if note.level >= NoteLevel::Info {
+            // A fault is told as what ended the command.
+            let fault = seen.puppet.as_ref().and_then(|puppet| puppet.fault.as_ref());
+            if note.level >= NoteLevel::Info
+                && !fault.is_some_and(|fault| note.text.ends_with(fault.as_str()))
+            {
                 self.console.remark(&note.text);
             }
         }
@@ -196,7 +210,7 @@ impl Performance<'_> {
     }
 }
 
-/// The log file, put in place whole when it ends.
+/// The log file.
 struct Log {
     path: PathBuf,
     out: BufWriter<File>,

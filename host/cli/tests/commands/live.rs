@@ -48,6 +48,7 @@ fn what_cannot_be_opened_is_refused_in_words() {
                 &[],
                 &["2 buses", "1 ports were given", "--port"],
             ),
+            call("play shows/salute --from 6", 1, &[], &["the clip ends at 6 s"]),
             call("play shows/salute --rate 9999", 2, &[], &["expected 10 to 500"]),
             call("devices --json", 0, &[r#"{"address":"sim:dial-box""#], ANY),
         ],
@@ -157,4 +158,15 @@ fn servos_are_found_read_and_let_go() {
         Some(3),
         "a servo that is silent is a device's fault"
     );
+}
+
+#[test]
+fn torque_that_nobody_speaks_of_is_not_called_off() {
+    let bus = Simulated::start("sim servo-bus --servo XL430-W250:1 --wire none --fault stall");
+    let output = dialrig(&format!("servo release --port {}", bus.address))
+        .output()
+        .expect("runs");
+    assert_eq!(output.status.code(), Some(4));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("no servo answered at 57600 baud"), "{said}");
 }

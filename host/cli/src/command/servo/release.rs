@@ -8,7 +8,9 @@ const EXAMPLES: &str = "\
 Example:
   dialrig servo release --port /dev/ttyUSB0 --baud 1000000";
 
-/// Switches torque off on every servo of the line, and checks those that answer.
+/// Torque off on every servo of the line
+///
+/// Asks those that answer whether it is.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -20,6 +22,13 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let mut line = args.line.open()?;
     line.release().map_err(failed)?;
     let found = line.scan(&[args.line.baud], &mut |_| {}).map_err(failed)?;
+    if found.is_empty() {
+        let message = format!(
+            "no servo answered at {} baud, so nobody says whether torque is off",
+            args.line.baud
+        );
+        return Err(Failure::Device { message, safe: false });
+    }
     for servo in &found {
         if !line.is_released(servo.id).map_err(failed)? {
             return Err(Failure::torque_unknown());

@@ -12,7 +12,7 @@ Examples:
   dialrig servo scan --port /dev/ttyUSB0            every line speed, about a second each
   dialrig servo scan --port /dev/ttyUSB0 --only     the given speed alone";
 
-/// Asks everybody on the line who they are.
+/// Everybody on the line, at one or all line speeds
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -46,7 +46,7 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         found
             .iter()
             .try_for_each(|servo| console.record(&record(servo)))?;
-    } else {
+    } else if !found.is_empty() {
         let mut table = Table::new(&[
             ("id", Side::Right),
             ("baud", Side::Right),
