@@ -8,25 +8,25 @@ use crate::command::Command;
 
 const EXAMPLES: &str = "\
 Examples:
-  dialrig                                   the studio, with the shipped example and simulated hardware
-  dialrig demo                              the whole chain as a film, no display needed
+  dialrig                             the studio, with the shipped example and simulated hardware
+  dialrig demo                        the whole chain as a film, no display needed
   dialrig play shows/salute --port /dev/ttyUSB0 --port /dev/ttyUSB1
   dialrig figure shows/salute/figure/ar.str
   dialrig sample shows/salute --fps 30 > salute.jsonl
   dialrig net run networks/figure.ps300 --dial 1:0.25@0.5 --watch 'turn<1>'
 
-Exit codes: 0 done, 1 refused or failed, 2 wrong usage, 3 ended by a device fault in a safe state, \
-4 ended by a device fault whose safe state could not be confirmed.";
+Exit codes: 0 done; 1 refused or failed; 2 wrong usage; 3 ended by a device fault, safely;
+4 ended by a device fault, and it is not known whether torque is off.";
 
 /// Pose articulated figures with physical controls; play them on screen and on servo puppets.
 #[derive(Debug, Parser)]
 #[command(name = "dialrig", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
 pub(crate) struct Args {
-    #[command(flatten)]
-    pub(crate) showing: Showing,
     /// A show folder or its show.toml, opened in the studio; the shipped example when left out
     #[arg(value_name = "SHOW")]
     pub(crate) show: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 }

@@ -17,6 +17,8 @@ Examples:
   dialrig check shows/salute
   dialrig check walk.bvh networks/*.ps300 --json";
 
+/// Everything that is wrong with files
+///
 /// Checks show folders, show.toml, clips and hardware profiles (.toml), .str, .pri, .shp, .ps300, .bvh, journals
 /// (.jsonl) and scenarios (.scn); exits with 1 if one of them has an error.
 #[derive(Debug, clap::Args)]

@@ -14,8 +14,10 @@ Examples:
   dialrig convert shows/salute salute.bvh   and back
   dialrig convert shows/salute salute.csv   where every link is at every frame";
 
-/// Converts between show folders (no extension), .bvh, .str (in) and .csv (out). Nothing is written unless
-/// all could be read.
+/// One kind of file into another, by their names
+///
+/// Show folders (no extension), .bvh and .str in; show folders, .bvh and .csv out. Nothing is written unless all could
+/// be read.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

@@ -31,8 +31,10 @@ const KEEP_EVERY: u64 = 4;
 /// Shares of the film's length: entering the keys, retiming and playing on screen, the puppet.
 const SHARES: [f64; 3] = [0.4, 0.25, 0.35];
 
+/// The whole chain without hardware or display, as a film
+///
 /// Simulated hands pose the printed human through the bytes of a dial box and a tablet; the clip is retimed, played
-/// on screen and performed by a simulated puppet. Writes film.gif, poses.png, servo.csv and report.json.
+/// on screen and performed by a simulated puppet. Writes film.gif, poses.png, servo.csv, report.json and journal.jsonl.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

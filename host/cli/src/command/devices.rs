@@ -21,6 +21,8 @@ Examples:
 /// How often the list is made anew while watching.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
 
+/// What can be opened, what is known about it, what is missing
+///
 /// Lists serial ports, whether they may be opened, and the devices of the embedded bench.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]

@@ -20,8 +20,10 @@ Examples:
   dialrig figure shows/salute/figure/ar.str
   dialrig figure ar.str --pri ar.pri --shp ar.shp --json";
 
-/// Shows the links of a structure file, parents first, with what is odd about them. With shape files, says
-/// which links have no shape. JSON: `{\"link\":2,\"name\":\"rua\",\"parent\":1,\"at\":[…],\"dof\":2,\"length\":0.2}`.
+/// A figure's tree, warnings and totals
+///
+/// Shows the links of a structure file, parents first, with what is odd about them. With shape files, says which links
+/// have no shape. JSON: `{"link":2,"name":"rua","parent":1,"at":[…],"dof":2,"length":0.2}`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

@@ -23,31 +23,18 @@ use crate::failure::{Exit, Failure};
 /// Everything that can be asked for.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// The whole chain without hardware or display, as a film
     Demo(demo::Args),
-    /// A show on a servo puppet, without a window
     Play(play::Args),
-    /// Where everything is over time, without drawing
     Sample(sample::Args),
-    /// Everything that is wrong with files
     Check(check::Args),
-    /// One kind of file into another, by their names
     Convert(convert::Args),
-    /// A figure's tree, warnings and totals
     Figure(figure::Args),
-    /// Curves through and along points
     Curve(curve::Args),
-    /// Function networks without devices: run, check, print, draw, look up
     Net(net::Args),
-    /// What can be opened, what is known about it, what is missing
     Devices(devices::Args),
-    /// What an input device says
     Monitor(monitor::Args),
-    /// Servos: who is there, their registers, letting go
     Servo(servo::Args),
-    /// Simulated devices for any program
     Sim(sim::Args),
-    /// Scenarios on a whole rig
     Bench(bench::Args),
 }
 

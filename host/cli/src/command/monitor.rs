@@ -21,7 +21,9 @@ Examples:
 /// Longest silence before Ctrl-C is looked for again.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// Shows what an input device says: dials, keys, pen and puck, in the device's own counts and numbers.
+/// What an input device says
+///
+/// Dials, keys, pen and puck, in the device's own counts and numbers, until Ctrl-C.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

@@ -20,8 +20,10 @@ Examples:
   dialrig sample walk.bvh --at 0,0.5,1
   dialrig sample walk.bvh --of joints --puppet marionette";
 
-/// Samples the motion of a show: one JSON object a line, `{\"t\":…,\"name\":…,\"start\":[…],\"end\":[…]}`, in
-/// the axes and units of its file.
+/// Where everything is over time, without drawing
+///
+/// One JSON object a line, `{"t":…,"name":…,"start":[…],"end":[…]}`, in the axes and units of the file; with
+/// `--of joints` `{"t":…,"name":…,"angle_rad":…}`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

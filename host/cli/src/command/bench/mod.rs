@@ -11,7 +11,9 @@ const EXAMPLES: &str = "\
 Example:
   dialrig bench run tests/scenarios/*.scn";
 
-/// Scenarios: what one would say at the bench, played on a whole rig in virtual time.
+/// Scenarios on a whole rig
+///
+/// What one would say at the bench, played in virtual time (docs/scenarios.md).
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -22,7 +24,6 @@ pub(crate) struct Args {
 /// What can be done with scenarios.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Plays scenarios and says what did not come as expected
     Run(run::Args),
 }
 

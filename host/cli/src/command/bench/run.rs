@@ -12,9 +12,11 @@ use crate::{input, setup};
 const EXAMPLES: &str = "\
 Examples:
   dialrig bench run tests/scenarios/*.scn
-  dialrig bench run tests/scenarios/cable-out.scn --seed 7 --junit report.xml";
+  dialrig bench run tests/scenarios/noise-on-the-line.scn --seed 7 --junit report.xml";
 
-/// Plays scenarios on the embedded bench in virtual time; the same seed gives the same course.
+/// Plays scenarios and says what did not come as expected
+///
+/// On the embedded bench, in virtual time; the same seed gives the same course.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

@@ -14,9 +14,10 @@ Examples:
   dialrig curve fit points.csv
   printf '[[0,0],[1,2],[3,1]]' | dialrig curve fit - --order 3 --json";
 
-/// Knots, parameters and B-spline coefficients of a curve. For the curve through the points: the parameter
-/// of every point, and which points were kept (near-equal neighbours are merged). For a B-spline: the order in
-/// use and the Greville abscissae.
+/// Knots, parameters and coefficients
+///
+/// For the curve through the points: the parameter of every point, and which points were kept (near-equal neighbours
+/// are merged). For a B-spline: the order in use and the Greville abscissae.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

@@ -15,7 +15,9 @@ Examples:
   dialrig curve length points.csv
   dialrig curve length points.csv --order 4 --from 0.5 --to 1.5 --json";
 
-/// The length of a curve, by Gauss-Legendre quadrature between its knots, good to eleven digits.
+/// How long the curve is
+///
+/// By Gauss-Legendre quadrature between its knots, good to eleven digits.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

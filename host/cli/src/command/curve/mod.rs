@@ -19,8 +19,10 @@ Examples:
   dialrig curve fit points.csv --order 4 --json | dialrig curve sample - --count 20
   printf '0,0\\n1,2\\n3,1\\n' | dialrig curve sample - --count 5";
 
-/// Fits curves to points, samples and measures them. Without `--order`, the natural cubic that passes through the
-/// points over chord length; with it, the uniform B-spline of that order with the points as control points.
+/// Curves through and along points
+///
+/// Without `--order`, the natural cubic that passes through the points over chord length; with it, the uniform B-spline
+/// of that order with the points as control points.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -30,11 +32,8 @@ pub(crate) struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Knots, parameters and coefficients
     Fit(fit::Args),
-    /// Points along the curve
     Sample(sample::Args),
-    /// How long the curve is
     Length(length::Args),
 }
 

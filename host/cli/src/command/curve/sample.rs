@@ -15,7 +15,9 @@ Examples:
   dialrig curve sample points.csv --count 50 > curve.csv
   dialrig curve sample points.csv --order 4 --at 0,0.5,1 --derivatives 1 --json";
 
-/// Points along a curve, as CSV or, with `--json`, as lines `{\"u\":…,\"point\":[…],\"derivatives\":[[…]]}`.
+/// Points along the curve
+///
+/// CSV or, with `--json`, lines `{"u":…,"point":[…],"derivatives":[[…]]}`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

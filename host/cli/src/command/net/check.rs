@@ -16,8 +16,9 @@ Examples:
   dialrig net check networks/figure.ps300
   dialrig net check first.ps300 second.ps300 --json";
 
-/// Loads network files one after the other into one machine and says what it does not understand; exits
-/// with 1 if there is an error.
+/// Everything that is wrong with network files
+///
+/// Loads them one after the other into one machine; exits with 1 if there is an error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

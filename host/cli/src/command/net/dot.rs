@@ -12,7 +12,9 @@ const EXAMPLES: &str = "\
 Examples:
   dialrig net dot networks/figure.ps300 | dot -Tsvg > figure.svg";
 
-/// Draws functions, display nodes and connections as a graphviz digraph.
+/// A drawing for graphviz
+///
+/// Functions, display nodes and connections as a digraph.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

@@ -15,7 +15,9 @@ Examples:
   dialrig net functions ROUTE SYNC
   dialrig net functions --json | jq -r 'select(.absent | not) | .name'";
 
-/// The functions that `name := F:TYPE;` can make: inputs, outputs, behaviour, and where that is known from.
+/// The reference table of functions
+///
+/// What `name := F:TYPE;` can make: inputs, outputs, behaviour, and where that is known from.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

@@ -23,7 +23,9 @@ Examples:
   dialrig net dot networks/figure.ps300 | dot -Tsvg > figure.svg
   dialrig net functions ACCUMULATE";
 
-/// Function networks in the command language (docs/ps300/language.md), without devices.
+/// Function networks without devices: run, check, print, draw, look up
+///
+/// Networks are written in the command language (docs/ps300/language.md).
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -33,15 +35,10 @@ pub(crate) struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run in virtual time and watch messages
     Run(run::Args),
-    /// Everything that is wrong with network files
     Check(check::Args),
-    /// The canonical text of network files
     Print(print::Args),
-    /// A drawing for graphviz
     Dot(dot::Args),
-    /// The reference table of functions
     Functions(functions::Args),
 }
 

@@ -16,8 +16,10 @@ Examples:
   dialrig net print old.ps300 > tidy.ps300
   echo 'a:=f:addc;conn a<1>:<1>a;' | dialrig net print -";
 
-/// Prints commands one by one as the language writes them: keywords whole, names as given. Comments are
-/// lost. Nothing is printed unless all could be read.
+/// The canonical text of network files
+///
+/// Commands one by one as the language writes them: keywords whole, names as given. Comments are lost. Nothing is
+/// printed unless all could be read.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

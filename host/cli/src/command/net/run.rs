@@ -29,9 +29,10 @@ An events file has one command a line, times ascending: at 0.5 SEND 0.25 TO <1>t
 /// Frames a second of network time: what the original's screen showed, near enough.
 const FRAMES_PER_SEC: f64 = 60.0;
 
-/// Runs function networks in virtual time and prints watched messages, one a line:
-/// `{\"t\":…,\"from\":\"NAME<N>\",\"kind\":…,\"value\":…}`. Messages that get lost on the way are reported
-/// on standard error.
+/// Run in virtual time and watch messages
+///
+/// Prints watched messages, one a line: `{"t":…,"from":"NAME<N>","kind":…,"value":…}`. Messages that get lost on
+/// the way are reported on standard error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

@@ -21,7 +21,9 @@ Examples:
   dialrig servo read --port /dev/ttyUSB0 --baud 1000000 3 'Present Position'
   dialrig servo release --port /dev/ttyUSB0 --baud 1000000";
 
-/// Who is on a servo line, what their registers say, and letting go of them.
+/// Servos: who is there, their registers, letting go
+///
+/// Nothing here can move one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -32,15 +34,10 @@ pub(crate) struct Args {
 /// What can be done with a servo line.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Everybody on the line, at one or all line speeds
     Scan(scan::Args),
-    /// Who a servo is
     Ping(ping::Args),
-    /// One register of a servo, or all
     Read(read::Args),
-    /// Position, load, voltage and temperature, again and again
     Monitor(monitor::Args),
-    /// Torque off on every servo of the line
     Release(release::Args),
 }
 

@@ -23,7 +23,9 @@ const REGISTERS: [(&str, &str); 5] = [
     ("temperature", "Present Temperature"),
 ];
 
-/// Shows torque, position, velocity, voltage and temperature of servos until Ctrl-C.
+/// Torque, position, velocity, voltage and temperature, again and again
+///
+/// Until Ctrl-C.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

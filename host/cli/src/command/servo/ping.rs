@@ -8,7 +8,7 @@ const EXAMPLES: &str = "\
 Example:
   dialrig servo ping --port /dev/ttyUSB0 --baud 1000000 1 2 3";
 
-/// Asks servos who they are.
+/// Who a servo is
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

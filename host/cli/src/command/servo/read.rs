@@ -14,7 +14,9 @@ Examples:
   dialrig servo read --port /dev/ttyUSB0 --baud 1000000 3
   dialrig servo read --port /dev/ttyUSB0 --baud 1000000 3 'Present Position' --json";
 
-/// Reads one register of a servo by the name its manual gives it, or all of them.
+/// One register of a servo, or all
+///
+/// Registers have the names that the manual gives them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

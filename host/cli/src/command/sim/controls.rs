@@ -29,7 +29,9 @@ A script has one action a line, seconds counted from when the host first switche
   at 0.7 puck 0.2 -0.4 button 1
   at 1 puck away";
 
-/// The SGI dial and button box: silent until it is initialised, eight dials, 32 keys and lamps.
+/// The SGI box of eight dials and 32 keys
+///
+/// Silent until it is initialised, as the real one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = DIAL_BOX_EXAMPLES)]
 pub(crate) struct DialBoxArgs {
@@ -40,7 +42,7 @@ pub(crate) struct DialBoxArgs {
     common: Common,
 }
 
-/// A Wacom tablet with serial protocol IV.
+/// A Wacom IV serial tablet with pen and puck
 #[derive(Debug, clap::Args)]
 #[command(after_help = TABLET_EXAMPLES)]
 pub(crate) struct TabletArgs {

@@ -19,8 +19,10 @@ Examples:
   dialrig sim dial-box --pty /tmp/dials --script turn.txt
   dialrig sim tablet --kind graphire-serial --tcp 127.0.0.1:7001";
 
-/// Simulated devices, byte for byte: a servo bus, a dial box, a tablet. Prints `ready PATH` when other programs can
-/// open it, and runs until Ctrl-C.
+/// Simulated devices for any program
+///
+/// A servo bus, a dial box, a tablet, byte for byte. Prints `ready PATH` when other programs can open it, and runs until
+/// Ctrl-C.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -31,11 +33,8 @@ pub(crate) struct Args {
 /// The devices there are.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Dynamixel servos on one line, with wire time, limits and faults
     ServoBus(servo_bus::Args),
-    /// The SGI box of eight dials and 32 keys
     DialBox(controls::DialBoxArgs),
-    /// A Wacom IV serial tablet with pen and puck
     Tablet(controls::TabletArgs),
 }
 

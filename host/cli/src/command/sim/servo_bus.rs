@@ -15,10 +15,11 @@ Examples:
   dialrig sim servo-bus --servo XL430-W250:1-6,XL330-M288:10 --pty /tmp/bus --baud 1000000
   dialrig sim servo-bus --servo XL430-W250:1 --tcp 127.0.0.1:7000 --fault 'servo 1 stuck at 2s'
 
-Faults: servo N stuck|silent|hot|error BITS|reboot, silent N, cable cut after N, drop P%, late TIME once, noise,
-brownout, echo; each with `at TIME`, `for TIME`, `once`.";
+Faults: `servo N stuck`, `servo N silent`, `servo N hot`, `servo N error BITS`, `servo N reboot`,
+`cable cut after N`, `drop P%`, `late TIME`, `noise`, `brownout`, `echo` and more (docs/cli.md);
+each with `at TIME`, `for TIME` or `once`.";
 
-/// Servos with their control tables, motion, wire time, return delay, limits and faults.
+/// Dynamixel servos on one line, with wire time, limits and faults
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
