@@ -3,6 +3,7 @@
 mod anomalies;
 mod directions;
 mod golden;
+mod motion_capture;
 mod properties;
 mod rehearsal;
 mod source;

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use device_profiles::{ProfileError, Profiles};
 
+use crate::document::NetworkFile;
+
 /// The example show as texts, as [`crate::document::from_texts`] takes them.
 pub fn salute() -> BTreeMap<String, String> {
     // In the repository shows share one network; a show of its own carries a copy.
@@ -38,8 +40,11 @@ pub fn salute() -> BTreeMap<String, String> {
 }
 
 /// The network that figures are posed with, for shows that have none.
-pub fn figure_network() -> &'static str {
-    include_str!("../../../networks/figure.ps300")
+pub fn figure_network() -> NetworkFile {
+    NetworkFile {
+        name: "figure".to_owned(),
+        text: include_str!("../../../networks/figure.ps300").to_owned(),
+    }
 }
 
 /// Where users keep profiles of their own: `$XDG_CONFIG_HOME/dialrig/profiles`, else `~/.config/dialrig/profiles`.

@@ -16,7 +16,11 @@ const PERIOD: Duration = Duration::from_millis(10);
 pub(crate) fn run(show: Option<&PathBuf>, console: &Console) -> Result<Exit, Failure> {
     // Before anything else, so that a machine without a display hears of it at once.
     ui::studio::check().map_err(|error| Failure::refused(error.to_string()))?;
-    let (show, folder) = setup::show(show.map(PathBuf::as_path), console)?;
+    let (mut show, folder) = setup::show(show.map(PathBuf::as_path), console)?;
+    if show.networks.is_empty() {
+        // A show made from motion capture has none yet; without one no control would do anything.
+        show.networks.push(Arc::new(rig::shipped::figure_network()));
+    }
     let equipment = Equipment {
         puppet: show.puppet.clone(),
         ..Equipment::default()
