@@ -149,7 +149,11 @@ fn one_absent_servo_costs_it_the_whole_read() {
     });
     assert_eq!(blamed, 2);
     drop(peer);
-    assert_eq!(super::hands::readings(&served, 4), [1, 3, 4], "our bus");
+    assert_eq!(
+        super::hands::readings(&served, 4, &[1, 3, 4]),
+        [1, 3, 4],
+        "our bus"
+    );
 }
 
 /// Known gap: no resynchronisation, so its own instruction heard back is an error.
@@ -164,9 +168,8 @@ fn an_echo_makes_it_fail() {
         },
     );
     let mut peer = Peer::open(&served, 60);
-    for _ in 0..3 {
-        assert!(peer.read(1, 0, 2).is_err(), "it is mended: read what it says");
-    }
+    let read = peer.read(1, 0, 2);
+    assert!(read.is_err(), "it is mended: {read:?}");
 }
 
 /// Known fault, as with every library tried: after an answer that comes late, the next question gets the answer to
