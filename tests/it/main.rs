@@ -6,6 +6,7 @@ mod golden;
 mod motion_capture;
 mod properties;
 mod rehearsal;
+mod replay;
 mod source;
 mod tidy;
 mod witness;
