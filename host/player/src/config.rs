@@ -57,7 +57,8 @@ impl Default for PlayerConfig {
             seam_rad: 0.02,
             late_after: Duration::from_millis(20),
             late_ticks_max: 10,
-            silence_max: Duration::from_millis(300),
+            // Longer than a busy host's or adapter's stall; the servos' own watchdogs act long before.
+            silence_max: Duration::from_millis(500),
             strain_rad: 0.6,
             strain_max: Duration::from_secs(1),
             operator_max: None,

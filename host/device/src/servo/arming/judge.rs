@@ -9,8 +9,9 @@ use crate::servo::table::Block;
 
 /// A joint that moved further than this between two looks is being moved by somebody.
 const RESTLESS_RAD: f64 = 0.05;
-/// How often a moving joint is measured again before arming is refused.
-const MEASURE_TRIES: u8 = 8;
+/// How often a moving joint is measured again before arming is refused: some tenths of a second, in which a servo
+/// that its own watchdog has just stopped, or one that was just let go, comes to rest.
+const MEASURE_TRIES: u8 = 40;
 
 impl Bus {
     /// The servos' answers to this stage, or everybody who refuses.
