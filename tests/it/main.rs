@@ -2,6 +2,7 @@
 
 mod anomalies;
 mod directions;
+mod docs;
 mod golden;
 mod motion_capture;
 mod properties;

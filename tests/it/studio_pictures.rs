@@ -59,10 +59,21 @@ pub fn posing() -> Arc<Snapshot> {
         Command::Pose(PoseCommand::Select(6)),
     ]);
     world.run_for(0.1);
-    world.hands().begin(TABLET, 0.0, Movement::Glide { to: [0.10, 0.25], over_secs: 0.5 });
-    world.hands().begin(TABLET, 0.6, Movement::Glide { to: [0.13, 0.25], over_secs: 0.4 });
+    let to = beside(&world, 6, [0.55, 0.45]);
+    world.hands().begin(TABLET, 0.0, Movement::Glide { to, over_secs: 0.5 });
     turn(&mut world, 4, 0.2, 0.6);
-    Arc::clone(world.run_for(0.9))
+    Arc::clone(world.run_for(0.5))
+}
+
+/// The place on the tablet that is `off` link lengths away from where a link starts, as seen from the front.
+fn beside(world: &World, link: usize, off: [f64; 2]) -> [f64; 2] {
+    let seen = world.seen();
+    let figure = seen.figure.as_ref().expect("the show has a figure");
+    let (view, link) = (&seen.view, figure.placed[link]);
+    let start = view.view_from_world() * (link.start - view.centre);
+    let length = link.start.distance(link.end);
+    let surface = world.stand().surface(TABLET).expect("it is there").expect("it is a tablet");
+    surface.script_from_cursor([start.x + off[0] * length, start.y + off[1] * length].map(|at| at * view.scale))
 }
 
 fn armed() -> World {

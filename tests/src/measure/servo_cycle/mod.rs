@@ -7,7 +7,7 @@
 //! Position alone, 4 bytes, as peers are usually measured; and 16 bytes from Realtime Tick to Present Position,
 //! which the player's bus reads, because the tick is what tells a late answer from a fresh one.
 //! The bus has no way to read less, so its framing alone is measured beside it with 4 bytes.
-//! Source of the limit: `docs/protocols/dynamixel-2.md` and the servo reference, "Wire limit".
+//! Source of the limit: `docs/protocols/dynamixel2.md` and the servo reference, "Wire limit".
 
 mod ours;
 mod peers;
