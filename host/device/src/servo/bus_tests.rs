@@ -267,6 +267,33 @@ fn a_late_answer_is_counted_and_never_returned() {
 }
 
 #[test]
+fn prompt_answers_after_held_up_ones_are_believed_again() {
+    let mut bench = Bench::new();
+    bench.far.desk().held_up = Duration::from_millis(7);
+    assert_eq!(bench.arm(), Armed::Yes, "{:?}", bench.bus.refusals());
+    bench.cycles(5, 0.0);
+    bench.far.desk().held_up = Duration::ZERO;
+    let mut pinned_again = false;
+    for _ in 0..50 {
+        let now = bench.clock.now();
+        bench.bus.poll(now, &mut |_| {}).unwrap();
+        if bench.bus.armed() == Armed::Yes {
+            bench.bus.command(Goal::Standstill, now, &mut |_| {}).unwrap();
+        } else {
+            pinned_again = true;
+        }
+        bench.clock.advance(PERIOD);
+    }
+    assert!(pinned_again, "goals rest on measurements that are believed");
+    bench.cycles(10, 0.0);
+    let reading = bench.bus.reading(0).unwrap();
+    assert!(
+        reading.age(bench.clock.now()) < Duration::from_millis(60),
+        "read anew"
+    );
+}
+
+#[test]
 fn a_position_that_cannot_be_is_no_reading() {
     let mut bench = Bench::armed();
     bench.cycles(3, 0.0);

@@ -281,7 +281,13 @@ impl Bus {
         if progress == Progress::Done {
             self.settle_and_tell(emit);
         }
-        if matches!(self.mode, Mode::Armed) && self.cycle.lost.iter().any(|lost| lost[1] >= CONFIRMATIONS) {
+        let tripped = self.cycle.lost.iter().any(|lost| lost[1] >= CONFIRMATIONS);
+        let doubted = self
+            .slots
+            .iter()
+            .any(|slot| slot.late_in_a_row >= LATE_IN_A_ROW_MAX);
+        if matches!(self.mode, Mode::Armed) && (tripped || doubted) {
+            self.slots.iter_mut().for_each(|slot| slot.late_in_a_row = 0);
             self.begin_pinning(now)?;
         }
         Ok(())
@@ -344,6 +350,10 @@ impl Bus {
     }
 }
 
+/// After so many answers in a row that were taken for late, what is known of that servo's clock is doubted: the
+/// line is let fall silent, and all are measured and pinned again.
+const LATE_IN_A_ROW_MAX: u8 = 6;
+
 impl Slot {
     /// Takes in one answer to the status read; the event says what was wrong with it, or that it is back.
     fn take_status(
@@ -362,8 +372,11 @@ impl Slot {
             Err(counts) => return Some(BusEvent::Implausible { member, counts }),
         };
         match self.freshness.judge(reading.tick, answer.sent, answer.turn, now) {
-            Verdict::Fresh => {}
-            Verdict::Stale { by_ms } => return Some(BusEvent::Stale { member, by_ms }),
+            Verdict::Fresh => self.late_in_a_row = 0,
+            Verdict::Stale { by_ms } => {
+                self.late_in_a_row = self.late_in_a_row.saturating_add(1);
+                return Some(BusEvent::Stale { member, by_ms });
+            }
             Verdict::Restarted => return Some(BusEvent::Restarted { member }),
         }
         self.reading = Some(reading);

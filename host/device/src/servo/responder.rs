@@ -31,6 +31,8 @@ pub(crate) struct Desk {
     pub(crate) waits_for_silent: bool,
     /// Answers come so much later.
     pub(crate) delay: Duration,
+    /// Questions are looked at so much later, as by a machine that is busy.
+    pub(crate) held_up: Duration,
     /// Their positions do not follow goals.
     pub(crate) stuck: BTreeSet<u8>,
     pub(crate) gone: bool,
@@ -52,6 +54,7 @@ impl Desk {
     }
 
     fn read(&mut self, now: Instant, id: u8, address: usize, length: usize) {
+        let now = now.after(self.held_up);
         let ticks = (now.as_nanos() / 1_000_000 + u64::from(id) * 1000) % 32_768;
         self.set(id, TICK, &(ticks as u16).to_le_bytes());
         let mut params = vec![0];
@@ -151,6 +154,7 @@ impl Responder {
             silent: BTreeSet::new(),
             waits_for_silent: true,
             delay: Duration::ZERO,
+            held_up: Duration::ZERO,
             stuck: BTreeSet::new(),
             gone: false,
             writes: Vec::new(),

@@ -15,6 +15,8 @@ pub(super) struct Slot {
     pub(super) presence: Presence,
     pub(super) misses: u32,
     pub(super) freshness: Freshness,
+    /// Answers in a row that were taken for late.
+    pub(super) late_in_a_row: u8,
     pub(super) limiter: Option<Limiter>,
     /// The measured position that the goal is pinned to while arming.
     pub(super) pin: Option<Reading>,
@@ -33,6 +35,7 @@ impl Slot {
             presence: Presence::Present,
             misses: 0,
             freshness: Freshness::default(),
+            late_in_a_row: 0,
             limiter: None,
             pin: None,
             held_rad: None,
@@ -65,8 +68,12 @@ impl Slot {
                 self.misses = 0;
                 Some(reading)
             }
-            // A restarted servo is asked once more, then its clock is known again.
-            Verdict::Stale { .. } | Verdict::Restarted => None,
+            // A restarted servo is asked once more, then its clock is known again. A late answer may as well be a
+            // prompt one after a first that was held up; asked again after a silence, there is no doubt.
+            Verdict::Stale { .. } | Verdict::Restarted => {
+                self.freshness.forget();
+                None
+            }
         }
     }
 }

@@ -9,9 +9,9 @@ use crate::servo::table::Block;
 
 /// A joint that moved further than this between two looks is being moved by somebody.
 const RESTLESS_RAD: f64 = 0.05;
-/// How often a moving joint is measured again before arming is refused: some tenths of a second, in which a servo
-/// that its own watchdog has just stopped, or one that was just let go, comes to rest.
-const MEASURE_TRIES: u8 = 40;
+/// How often a joint that moves, or answers late, is measured again before arming is refused. Each time comes after a
+/// silence: together half a second, in which a servo that its own watchdog has just stopped comes to rest.
+const MEASURE_TRIES: u8 = 12;
 
 impl Bus {
     /// The servos' answers to this stage, or everybody who refuses.
@@ -196,13 +196,13 @@ impl Bus {
 
     fn judge_measure(&mut self, answers: &[(usize, Gathered)], block: Block, tries: u8) -> Next {
         let mut refused = Vec::new();
-        let mut again = false;
+        let mut late = Vec::new();
         for (at, answer) in answers {
             let Some(slot) = self.slots.get_mut(*at) else {
                 continue;
             };
             let Some(reading) = slot.fresh_reading(answer, block.address) else {
-                again = true;
+                late.push((*at, Why::Late));
                 continue;
             };
             let turn = i64::from(slot.member.servo().counts_per_turn);
@@ -215,12 +215,12 @@ impl Bus {
         }
         if !refused.is_empty() {
             Next::Refuse(refused)
-        } else if !again {
+        } else if late.is_empty() {
             Next::Stage(Stage::Pin { tries })
         } else if tries < MEASURE_TRIES {
             Next::Stage(Stage::Measure { tries: tries + 1 })
         } else {
-            Next::Refuse(answers.iter().map(|(at, _)| (*at, Why::Restless)).collect())
+            Next::Refuse(late)
         }
     }
 
@@ -234,7 +234,7 @@ impl Bus {
             let goal_rad = slot.member.position_rad(found);
             let reading = slot.fresh_reading(answer, block.address);
             let Some((pin, reading)) = slot.pin.zip(reading) else {
-                unpinned.push((*at, Why::Restless));
+                unpinned.push((*at, Why::Late));
                 continue;
             };
             // Some firmware lets the goal follow the horn while torque is off, so the goal must be where the
@@ -298,10 +298,12 @@ impl Bus {
             };
             let goal_rad = slot.member.position_rad(value(self.table.goal, answer, block));
             let reading = slot.fresh_reading(answer, block.address);
-            if reading.is_some_and(|reading| (reading.position_rad - goal_rad).abs() <= 2.0 * RESTLESS_RAD) {
-                slot.held_rad = Some(goal_rad);
-            } else {
-                away.push((*at, Why::Restless));
+            match reading {
+                None => away.push((*at, Why::Late)),
+                Some(reading) if (reading.position_rad - goal_rad).abs() > 2.0 * RESTLESS_RAD => {
+                    away.push((*at, Why::Restless));
+                }
+                Some(_) => slot.held_rad = Some(goal_rad),
             }
         }
         if away.is_empty() {

@@ -142,6 +142,9 @@ impl Bus {
             _ => {}
         }
         let gather = Gather::new(self.stage_block(stage), self.ids());
+        // What is measured again is measured after a silence: then nothing late can be taken for an answer.
+        let again = matches!(stage, Stage::Measure { tries } | Stage::Held { tries } if tries > 0);
+        let gather = if again { gather.after_silence() } else { gather };
         self.mode = Mode::Arming(Arming { stage, gather });
         Ok(())
     }

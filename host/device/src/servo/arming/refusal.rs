@@ -104,6 +104,11 @@ pub enum Why {
     /// It does not stand still.
     #[error("is moving; hold it still while arming")]
     Restless,
+    /// Its clock says that its answers are old ones, again and again.
+    #[error(
+        "answers too late to be trusted; the computer or the adapter is busy: close other programs, look at the adapter's latency timer"
+    )]
+    Late,
     /// Torque is still on after it was switched off several times.
     #[error("still has torque after it was switched off; cut its power")]
     StillOn,
