@@ -18,9 +18,12 @@ Examples:
 Exit codes: 0 done; 1 refused or failed; 2 wrong usage; 3 ended by a device fault, safely;
 4 ended by a device fault, and it is not known whether torque is off.";
 
+/// Either a show or a command; options go before or behind it.
+const USAGE: &str = "dialrig [OPTIONS] [SHOW]\n       dialrig [OPTIONS] <COMMAND>";
+
 /// Pose articulated figures with physical controls; play them on screen and on servo puppets.
 #[derive(Debug, Parser)]
-#[command(name = "dialrig", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+#[command(name = "dialrig", version, after_help = EXAMPLES, override_usage = USAGE)]
 pub(crate) struct Args {
     /// A show folder or its show.toml, opened in the studio; the shipped example when left out
     #[arg(value_name = "SHOW")]

@@ -33,6 +33,15 @@ fn main() -> ExitCode {
             .error(ErrorKind::InvalidSubcommand, message)
             .exit();
     }
+    if let (Some(show), Some(_)) = (&args.show, &args.command) {
+        let message = format!(
+            "a show to open (`{}`) and a command cannot be given together",
+            show.display()
+        );
+        args::Args::command()
+            .error(ErrorKind::ArgumentConflict, message)
+            .exit();
+    }
     let console = Console::new(args.showing);
     let result = match &args.command {
         Some(command) => command.run(&console),

@@ -98,6 +98,7 @@ fn list() -> Result<Vec<Found>, Failure> {
 
 fn watch(console: &Console, found: &mut Vec<Found>) -> Result<Exit, Failure> {
     let interrupt = Interrupt::listen();
+    console.flush()?;
     while !interrupt.came() {
         interrupt.wait(LOOK_AGAIN);
         let now = list()?;
@@ -107,6 +108,7 @@ fn watch(console: &Console, found: &mut Vec<Found>) -> Result<Exit, Failure> {
         for port in found.iter().filter(|port| !now.contains(port)) {
             tell(console, Some("gone"), port)?;
         }
+        console.flush()?;
         *found = now;
     }
     Ok(Exit::Done)

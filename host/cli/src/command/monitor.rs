@@ -59,6 +59,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
             }
         });
         told?;
+        console.flush()?;
     }
     let [reports, unknown, rejected] = listener.counted();
     console.remark(format_args!(

@@ -75,3 +75,19 @@ fn wrong_usage_is_2_and_help_is_0() {
         ],
     );
 }
+
+#[test]
+fn options_stand_before_a_command_too_but_a_show_does_not() {
+    check(
+        &[],
+        &[
+            call(
+                "--quiet --json figure shows/salute/figure/ar.str",
+                0,
+                &[r#"{"link":0"#],
+                &[],
+            ),
+            call("shows/salute figure a.str", 2, &[], &["cannot be given together"]),
+        ],
+    );
+}

@@ -71,6 +71,7 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
                 console.line(format_args!("servo {id}: {}", words.join(", ")))?;
             }
         }
+        console.flush()?;
         readings += 1;
     }
     Ok(Exit::Done)
