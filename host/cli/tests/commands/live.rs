@@ -1,9 +1,9 @@
 //! Commands that speak to devices: what they refuse, and whole conversations between two of them.
 
 use std::io::{BufRead, BufReader};
-use std::process::{Child, Command};
+use std::process::Child;
 
-use crate::{ANY, call, check, dialrig};
+use crate::{ANY, call, check, dialrig, interrupt};
 
 #[test]
 fn what_cannot_be_opened_is_refused_in_words() {
@@ -118,9 +118,7 @@ impl Simulated {
 
 impl Drop for Simulated {
     fn drop(&mut self) {
-        let _ = Command::new("kill")
-            .args(["-INT", &self.child.id().to_string()])
-            .status();
+        interrupt(&self.child);
         let _ = self.child.wait();
     }
 }

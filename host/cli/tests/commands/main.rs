@@ -11,7 +11,7 @@ mod usage;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 
 /// One call. Snippets must occur in the order given; an empty list means that the stream stays empty.
 struct Call {
@@ -71,6 +71,14 @@ fn dialrig(args: &str) -> Command {
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
     command
+}
+
+/// Presses Ctrl-C. A bare system has no program called `kill`, but every shell has one built in.
+fn interrupt(child: &Child) {
+    let sent = Command::new("sh")
+        .args(["-c", &format!("kill -INT {}", child.id())])
+        .status();
+    assert!(sent.expect("a shell").success());
 }
 
 /// Makes every call in a folder with these files and tells of all that differ from what was expected.

@@ -1,9 +1,9 @@
 //! What happens to output when its reader goes away or somebody presses Ctrl-C.
 
 use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, Command};
+use std::process::Child;
 
-use crate::dialrig;
+use crate::{dialrig, interrupt};
 
 /// A run that would last for hours and prints all the while, after its first line.
 fn endless() -> (Child, BufReader<std::process::ChildStdout>) {
@@ -38,10 +38,7 @@ fn a_reader_that_goes_away_is_no_failure() {
 #[test]
 fn an_interrupt_leaves_whole_lines() {
     let (mut child, mut out) = endless();
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(sent.expect("kill is there").success());
+    interrupt(&child);
     let mut rest = Vec::new();
     out.read_to_end(&mut rest).expect("reads");
     assert!(rest.is_empty() || rest.ends_with(b"}\n"));
