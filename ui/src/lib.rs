@@ -11,3 +11,4 @@ pub mod panels;
 pub mod render;
 pub mod still;
 pub mod studio;
+mod watch;

@@ -4,18 +4,18 @@
 //! picture cannot make a servo late.
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use egui::{Rect, Ui, UiBuilder, pos2};
-use rig::{Command, PuppetCommand, PuppetState, Snapshot};
+use rig::{Command, PuppetCommand, Snapshot};
 
 use crate::panels::layout::Areas;
 use crate::panels::{Choices, Commands, Panel, canvas, help, keyboard, style};
 use crate::panels::{desk, devices, header, keys, puppet, transport, view};
 use crate::render::theme;
+use crate::watch::Watch;
 
-/// The other end of the window: a rig that runs somewhere else.
-pub trait Session {
+/// The other end of the window: a rig that runs somewhere else. It is looked at from two threads.
+pub trait Session: Send + Sync {
     /// What is to be seen now; cheap, never waits for a step.
     fn snapshot(&self) -> Arc<Snapshot>;
     /// Passes on what a hand wants done; never waits.
@@ -126,20 +126,25 @@ fn separators(ui: &Ui, areas: &Areas) {
 /// The studio on a session, as a program of its own.
 pub struct App {
     studio: Studio,
-    session: Box<dyn Session>,
+    session: Arc<dyn Session>,
+    watch: Option<Watch>,
 }
 
 impl App {
-    /// Prepares context and graphics card.
-    pub fn new(creation: &eframe::CreationContext<'_>, session: Box<dyn Session>) -> App {
+    /// Prepares context and graphics card, and begins to watch the session.
+    pub fn new(creation: &eframe::CreationContext<'_>, session: Box<dyn Session>) -> std::io::Result<App> {
         style::apply(&creation.egui_ctx);
         if let Some(state) = &creation.wgpu_render_state {
             canvas::setup(state);
         }
-        App {
+        let session: Arc<dyn Session> = session.into();
+        let context = creation.egui_ctx.clone();
+        let watch = Watch::start(Arc::clone(&session), move || context.request_repaint())?;
+        Ok(App {
             studio: Studio::new(),
             session,
-        }
+            watch: Some(watch),
+        })
     }
 
     /// The studio inside.
@@ -148,27 +153,16 @@ impl App {
     }
 }
 
-/// Time between pictures while something moves, and while nothing does.
-const MOVING: Duration = Duration::from_millis(16);
-const RESTING: Duration = Duration::from_millis(50);
-
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let seen = self.session.snapshot();
         for command in self.studio.ui(ui, &seen) {
             self.session.send(command);
         }
-        let moving = seen.transport.playing
-            || seen.desk.dials.iter().any(|dial| dial.live)
-            || seen
-                .puppet
-                .as_ref()
-                .is_some_and(|p| !matches!(p.state, PuppetState::Released | PuppetState::Faulted));
-        ui.ctx()
-            .request_repaint_after(if moving { MOVING } else { RESTING });
     }
 
     fn on_exit(&mut self) {
+        self.watch = None;
         // Nobody is left to press STOP; letting go softly is the player's own policy.
         self.session.send(Command::Puppet(PuppetCommand::Release));
     }
@@ -222,7 +216,7 @@ pub fn run(session: Box<dyn Session>) -> Result<(), StudioError> {
     eframe::run_native(
         "dialrig",
         options,
-        Box::new(|creation| Ok(Box::new(App::new(creation, session)))),
+        Box::new(|creation| Ok(Box::new(App::new(creation, session)?))),
     )
     .map_err(|error| StudioError::Window(error.to_string()))
 }

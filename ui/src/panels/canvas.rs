@@ -89,6 +89,9 @@ impl CallbackTrait for View {
     }
 }
 
+/// How much a name hides of what it stands on.
+const PLATE: f32 = 0.75;
+
 /// Shows `scene` in `rect`; `name` tells views of one window apart.
 pub fn show(ui: &Ui, rect: Rect, name: &'static str, scene: &Scene) {
     let scale = ui.ctx().pixels_per_point();
@@ -113,6 +116,15 @@ pub fn show(ui: &Ui, rect: Rect, name: &'static str, scene: &Scene) {
             Align2::LEFT_TOP
         };
         let font = style::digits((text.size / scale).max(theme::SIZE_SMALL));
-        painter.text(at, anchor, text.text, font, style::ink(text.colour));
+        let galley = painter.layout_no_wrap(text.text, font, style::ink(text.colour));
+        let rect = anchor.anchor_size(at, galley.size());
+        // On the ground's own colour: names stand beside lines, and often over some.
+        let plate = style::ink(theme::GROUND).gamma_multiply(PLATE);
+        painter.rect_filled(
+            rect.expand2(egui::vec2(theme::STEP / 2.0, 0.0)),
+            style::round(),
+            plate,
+        );
+        painter.galley(rect.min, galley, style::ink(text.colour));
     }
 }

@@ -78,7 +78,8 @@ fn row(ui: &mut Ui, rect: Rect, device: &DeviceView, commands: &mut Commands<'_>
         right -= theme::GAP;
     }
     let count = if word.is_empty() {
-        format!("{}", device.events)
+        let plural = if device.events == 1 { "" } else { "s" };
+        format!("{} event{plural}", device.events)
     } else {
         word.to_owned()
     };

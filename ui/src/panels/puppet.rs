@@ -1,11 +1,13 @@
-//! The servo puppet: what it does, where its joints are against where they should be, and the large STOP.
+//! The servo puppet: what it does, how it stands, where its joints are against where they should be, and the
+//! large STOP.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 use rig::{Command, PuppetCommand, PuppetState, PuppetView, Snapshot};
 
 use super::button::{Button, Tone};
 use super::style::ink;
-use super::{Commands, Panel, joints, layout, style};
+use super::{Commands, Panel, canvas, joints, layout, style};
+use crate::render::puppet as measured;
 use crate::render::theme::{self, Rgb};
 use crate::render::timeline::clock_text;
 
@@ -13,10 +15,54 @@ use crate::render::timeline::clock_text;
 #[derive(Default)]
 pub struct Puppet;
 
-/// Height of STOP, points: the largest button there is.
-const STOP: f32 = 38.0;
-/// Height of what a fault or the player has to say, points; kept free so that nothing jumps.
+/// Heights of STOP, points: the largest button there is.
+const STOP: [f32; 2] = [44.0, 72.0];
+/// Height of what a fault or the player has to say, points: two lines, kept free so that nothing jumps.
 const REMARK: f32 = 30.0;
+/// Least height of the block with STOP and the puppet's picture, points.
+const BLOCK: f32 = STATE + STOP[0] + ORDERS + theme::GAP;
+/// The picture's part of the width, and how wide it is for its height: as a standing figure with an arm out.
+const PICTURE: [f32; 2] = [0.45, 0.66];
+/// Height of the state and what belongs to it, points.
+const STATE: f32 = 40.0;
+/// Height of the orders: three rows, points.
+const ORDERS: f32 = 3.0 * theme::ROW + 2.0 * theme::STEP;
+
+/// The panel's rectangles.
+struct Parts {
+    state: Rect,
+    stop: Rect,
+    orders: Rect,
+    picture: Rect,
+    remark: Rect,
+    joints: Rect,
+}
+
+impl Parts {
+    /// Divides what the title leaves; `joints` is how high their table would like to be.
+    fn of(rest: Rect, joints: f32) -> Parts {
+        let below = REMARK + 2.0 * theme::GAP + joints;
+        let tallest = (rest.width() * PICTURE[0] / PICTURE[1]).max(BLOCK);
+        let block = (rest.height() - below).clamp(BLOCK, tallest).floor();
+        let width = (block * PICTURE[1]).round();
+        let bottom = rest.top() + block;
+        let split = rest.right() - width;
+        let rect = |x0: f32, y0: f32, x1: f32, y1: f32| Rect::from_min_max(pos2(x0, y0), pos2(x1, y1));
+        let (left, right) = (rest.left(), split - theme::MARGIN);
+        let orders = bottom - ORDERS;
+        let stop_bottom = orders - theme::GAP;
+        let stop = (stop_bottom - STOP[1]).max(rest.top() + STATE);
+        let remark = bottom + theme::GAP;
+        Parts {
+            state: rect(left, rest.top(), right, rest.top() + STATE),
+            stop: rect(left, stop, right, stop_bottom),
+            orders: rect(left, orders, right, bottom),
+            picture: rect(split, rest.top(), rest.right(), bottom),
+            remark: rect(left, remark, rest.right(), remark + REMARK),
+            joints: rect(left, remark + REMARK + theme::GAP, rest.right(), rest.bottom()),
+        }
+    }
+}
 
 impl Panel for Puppet {
     fn title(&self) -> &'static str {
@@ -25,53 +71,62 @@ impl Panel for Puppet {
 
     fn ui(&mut self, ui: &mut Ui, seen: &Snapshot, commands: &mut Commands<'_>) {
         let area = layout::inside(ui.max_rect());
-        if let Some(puppet) = &seen.puppet {
-            let corner = area.right_top();
-            let text = (puppet.name.as_str(), style::words(theme::SIZE_SMALL));
-            style::line(
-                ui.painter(),
-                corner,
-                Align2::RIGHT_TOP,
-                text,
-                theme::DIM,
-                area.width() - 64.0,
-            );
-        }
-        let mut rest = style::title(ui.painter(), area, self.title());
-        let mut take = |height: f32, gap: f32| {
-            let row = Rect::from_min_size(rest.min, vec2(rest.width(), height));
-            rest.min.y += height + gap;
-            row
-        };
-        let status = take(18.0, 2.0);
-        let remark = take(REMARK, theme::STEP);
-        let stop = take(STOP, theme::GAP);
-        let first = take(theme::ROW, theme::STEP);
-        let second = take(theme::ROW, theme::GAP);
-        stop_button(ui, stop, seen.puppet.as_ref(), commands);
-        orders(
-            ui,
-            [first, second],
-            seen.puppet.as_ref(),
-            seen.clip.is_some(),
-            commands,
-        );
-        let Some(puppet) = &seen.puppet else {
+        let puppet = seen.puppet.as_ref();
+        let rest = style::title(ui.painter(), area, self.title());
+        let joints = puppet.map_or(0.0, |p| joints::height_wanted(&p.joints));
+        let parts = Parts::of(rest, joints);
+        stop_button(ui, parts.stop, puppet, commands);
+        orders(ui, parts.orders, puppet, seen.clip.is_some(), commands);
+        picture(ui, parts.picture, puppet);
+        let Some(puppet) = puppet else {
             let text = ("This show has no puppet", style::words(theme::SIZE_BODY));
+            let at = parts.state.left_top();
             style::line(
                 ui.painter(),
-                status.left_top(),
+                at,
                 Align2::LEFT_TOP,
                 text,
                 theme::DIM,
-                status.width(),
+                parts.state.width(),
             );
             return;
         };
-        state_line(ui, status, puppet);
-        remark_lines(ui, remark, puppet);
-        joints::show(ui, rest, &puppet.joints);
+        let name = (puppet.name.as_str(), style::words(theme::SIZE_SMALL));
+        let width = area.width() - 64.0;
+        style::line(
+            ui.painter(),
+            area.right_top(),
+            Align2::RIGHT_TOP,
+            name,
+            theme::DIM,
+            width,
+        );
+        state_lines(ui, parts.state, puppet);
+        remark_lines(ui, parts.remark, puppet);
+        joints::show(ui, parts.joints, puppet);
     }
+}
+
+/// The puppet where it was measured.
+fn picture(ui: &Ui, area: Rect, puppet: Option<&PuppetView>) {
+    let aspect = f64::from(area.width() / area.height().max(1.0));
+    canvas::show(ui, area, "puppet", &measured::scene(puppet, aspect));
+    let edge = style::hair(theme::EDGE);
+    ui.painter()
+        .rect_stroke(area, 0.0, edge, egui::StrokeKind::Inside);
+    let text = ("measured", style::words(theme::SIZE_SMALL));
+    let at = area.left_top() + vec2(6.0, 4.0);
+    style::line(
+        ui.painter(),
+        at,
+        Align2::LEFT_TOP,
+        text,
+        theme::FAINT,
+        area.width() - 8.0,
+    );
+    let id = ui.scope_id().with("picture");
+    let response = ui.interact(area, id, egui::Sense::hover());
+    response.on_hover_text("The puppet as its servos say it stands, not as it was asked to.");
 }
 
 /// A state in words and in its colour.
@@ -85,39 +140,34 @@ fn state_word(state: PuppetState) -> (&'static str, Rgb) {
     }
 }
 
-fn state_line(ui: &Ui, area: Rect, puppet: &PuppetView) {
+/// The state, large; beneath it the torque, and the clip's time while it plays.
+fn state_lines(ui: &Ui, area: Rect, puppet: &PuppetView) {
     let (word, colour) = state_word(puppet.state);
-    let lamp = pos2(area.left() + 5.0, area.center().y);
-    if puppet.state == PuppetState::Released {
-        ui.painter()
-            .circle_stroke(lamp, 4.0, egui::Stroke::new(1.5, ink(colour)));
-    } else {
-        ui.painter().circle_filled(lamp, 4.5, ink(colour));
-    }
-    let at = pos2(area.left() + 18.0, area.center().y);
     let painter = ui.painter();
-    let said = painter.text(
-        at,
-        Align2::LEFT_CENTER,
-        word,
-        style::words(theme::SIZE_TITLE),
-        ink(colour),
-    );
+    let upper = area.top() + 8.0;
+    let lamp = pos2(area.left() + 5.0, upper);
+    if puppet.state == PuppetState::Released {
+        painter.circle_stroke(lamp, 4.0, egui::Stroke::new(1.5, ink(colour)));
+    } else {
+        painter.circle_filled(lamp, 4.5, ink(colour));
+    }
+    let left = area.left() + 18.0;
+    let font = style::words(theme::SIZE_TITLE);
+    painter.text(pos2(left, upper), Align2::LEFT_CENTER, word, font, ink(colour));
+    let lower = area.top() + 27.0;
     let torque = if puppet.torque { "torque on" } else { "no torque" };
-    let at = pos2(said.right() + theme::MARGIN, area.center().y + 1.0);
+    let font = style::words(theme::SIZE_SMALL);
     painter.text(
-        at,
+        pos2(left, lower),
         Align2::LEFT_CENTER,
         torque,
-        style::words(theme::SIZE_SMALL),
+        font,
         ink(theme::DIM),
     );
     if let Some(secs) = puppet.clip_secs {
         let text = format!("{} s", clock_text(secs));
-        let font = style::digits(theme::SIZE_BODY);
-        let at = pos2(area.right(), area.center().y);
-        ui.painter()
-            .text(at, Align2::RIGHT_CENTER, text, font, ink(theme::LIVE));
+        let (at, font) = (pos2(area.right(), lower), style::digits(theme::SIZE_BODY));
+        painter.text(at, Align2::RIGHT_CENTER, text, font, ink(theme::LIVE));
     }
 }
 
@@ -148,9 +198,9 @@ fn remark_lines(ui: &Ui, area: Rect, puppet: &PuppetView) {
 /// What the servo loop noticed, in one line.
 fn doings(puppet: &PuppetView) -> String {
     let counts = [
-        (puppet.interventions, "limited"),
-        (puppet.stale_discarded, "stale"),
-        (puppet.late_cycles, "late"),
+        (puppet.interventions, "goals limited"),
+        (puppet.stale_discarded, "late answers dropped"),
+        (puppet.late_cycles, "late cycles"),
     ];
     let said: Vec<String> = counts
         .iter()
@@ -181,20 +231,17 @@ fn stop_button(ui: &mut Ui, area: Rect, puppet: Option<&PuppetView>, commands: &
     }
 }
 
-fn orders(
-    ui: &mut Ui,
-    rows: [Rect; 2],
-    puppet: Option<&PuppetView>,
-    clip: bool,
-    commands: &mut Commands<'_>,
-) {
+/// What the puppet can be asked for: what is done in turn from top to bottom, what ends it on the right.
+fn orders(ui: &mut Ui, area: Rect, puppet: Option<&PuppetView>, clip: bool, commands: &mut Commands<'_>) {
     let state = puppet.map(|p| p.state);
     let armed = matches!(state, Some(PuppetState::Holding | PuppetState::Playing));
     let playing = state == Some(PuppetState::Playing);
-    let cells: Vec<Rect> = rows
-        .into_iter()
-        .flat_map(|row| layout::columns(row, 3, theme::STEP))
-        .collect();
+    let row = |row: usize| {
+        let top = area.top() + row as f32 * (theme::ROW + theme::STEP);
+        let row = Rect::from_min_size(pos2(area.left(), top), vec2(area.width(), theme::ROW));
+        layout::columns(row, 2, theme::STEP)
+    };
+    let cells = (0..3).flat_map(row);
     let buttons = [
         (
             "Arm",
@@ -203,7 +250,6 @@ fn orders(
             PuppetCommand::Arm,
             state == Some(PuppetState::Released),
         ),
-        ("Hold", "Stays where it is.", "H", PuppetCommand::Hold, playing),
         (
             "Release",
             "Slows down and lets go.",
@@ -218,6 +264,7 @@ fn orders(
             PuppetCommand::Play,
             armed && clip,
         ),
+        ("Hold", "Stays where it is.", "H", PuppetCommand::Hold, playing),
         (
             "Follow",
             "Follows the figure on screen, live.",

@@ -1,8 +1,9 @@
 //! The figure: the large front view and the narrow side view, at the same scale and height.
 
 use egui::accesskit::Role;
+use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Align2, PointerButton, Pos2, Rect, Response, Sense, Ui, pos2, vec2};
-use rig::{Command, FigureView, NoteLevel, PoseCommand, Snapshot, ViewCommand};
+use rig::{Command, FigureView, Note, NoteLevel, PoseCommand, Snapshot, ViewCommand};
 
 use super::button::{self, Button};
 use super::style::{self, ink};
@@ -224,13 +225,15 @@ fn switches(ui: &mut Ui, area: Rect, commands: &mut Commands<'_>) {
 /// How long a remark stays, seconds.
 const REMARK_SECS: f64 = 8.0;
 
-/// The latest remark, in the lower left corner, for a while.
+/// The latest remark, for a while.
+pub fn current_remark(seen: &Snapshot) -> Option<&Note> {
+    let note = seen.notes.last()?;
+    (seen.at_secs - note.at_secs < REMARK_SECS).then_some(note)
+}
+
+/// The latest remark, in the lower left corner; long ones take two lines.
 fn remark(ui: &Ui, area: Rect, seen: &Snapshot) {
-    let Some(note) = seen
-        .notes
-        .last()
-        .filter(|n| seen.at_secs - n.at_secs < REMARK_SECS)
-    else {
+    let Some(note) = current_remark(seen) else {
         return;
     };
     let colour = if note.level == NoteLevel::Info {
@@ -241,9 +244,15 @@ fn remark(ui: &Ui, area: Rect, seen: &Snapshot) {
     let at = pos2(area.left() + theme::MARGIN, area.bottom() - theme::MARGIN);
     let font = style::words(theme::SIZE_BODY);
     let width = area.width() - 2.0 * theme::MARGIN;
-    // On the ground's own colour, so that the grid does not strike it through.
-    let galley = style::layout(ui.painter(), (&note.text, font), colour, width);
+    let mut job = LayoutJob::single_section(note.text.clone(), TextFormat::simple(font, ink(colour)));
+    job.wrap = TextWrapping {
+        max_width: width,
+        max_rows: 2,
+        ..TextWrapping::default()
+    };
+    let galley = ui.painter().layout_job(job);
     let rect = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
+    // On the ground's own colour, so that the grid does not strike it through.
     ui.painter().rect_filled(
         rect.expand2(vec2(theme::STEP, 2.0)),
         style::round(),

@@ -13,6 +13,7 @@ pub mod lines;
 pub mod offscreen;
 pub mod palette;
 pub mod picture;
+pub mod puppet;
 pub mod raster;
 pub mod scene;
 pub mod sheet;

@@ -110,7 +110,7 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
 /// How far before and after the present moment the ways of the extremities are shown, seconds.
 const NEARBY_SECS: f64 = 0.5;
 
-/// The selected link's whole way, or a little of those of all extremities.
+/// A little of the ways of all extremities, and the selected link's whole way with its keys.
 fn add_trails(
     scene: &mut Scene,
     samples: &Samples,
@@ -118,22 +118,17 @@ fn add_trails(
     look: &Look,
     (keys, now_secs): (&[rig::KeyView], f64),
 ) {
-    if let Some(link) = figure.selected.filter(|_| look.editing) {
+    let selected = figure.selected.filter(|_| look.editing).map(usize::from);
+    let nearby = [now_secs - NEARBY_SECS, now_secs + NEARBY_SECS];
+    let ink = Ink::new(theme::DIM, Layer::Trail).faded(0.7);
+    for (link, _) in extremities(figure).filter(|(link, _)| selected != Some(*link)) {
+        samples.add_trail(scene, link, nearby, ink, &[]);
+    }
+    if let Some(link) = selected {
         let key_secs: Vec<f64> = keys.iter().map(|key| key.secs).collect();
         let ink = Ink::new(theme::SELECTED, Layer::Trail).faded(0.7);
         let always = [f64::NEG_INFINITY, f64::INFINITY];
-        samples.add_trail(scene, usize::from(link), always, ink, &key_secs);
-        return;
-    }
-    let nearby = [now_secs - NEARBY_SECS, now_secs + NEARBY_SECS];
-    for (link, _) in extremities(figure) {
-        samples.add_trail(
-            scene,
-            link,
-            nearby,
-            Ink::new(theme::DIM, Layer::Trail).faded(0.7),
-            &[],
-        );
+        samples.add_trail(scene, link, always, ink, &key_secs);
     }
 }
 
@@ -149,7 +144,12 @@ fn extremities(figure: &FigureView) -> impl Iterator<Item = (usize, &motion::fig
 
 /// Lines of the floor's grid on each side of the middle.
 const FLOOR_LINES: i32 = 7;
+/// Strength of the grid in its middle.
+const FLOOR_STRENGTH: f64 = 0.7;
+/// Below this sine of the angle the floor is seen on edge, as one line.
+const ON_EDGE: f64 = 0.02;
 
+/// A grid that fades out around its middle: ground to stand on, not a frame around the picture.
 fn add_floor(scene: &mut Scene, height: f64) {
     let step = nice_step(scene.camera.half_height / 3.0);
     let middle = |v: f64| (v / step).round() * step;
@@ -158,13 +158,28 @@ fn add_floor(scene: &mut Scene, height: f64) {
         height,
         middle(scene.camera.centre.z),
     );
-    let reach = step * f64::from(FLOOR_LINES);
-    let ink = Ink::new(theme::FAINT, Layer::Ground).faded(0.5);
-    for line in -FLOOR_LINES..=FLOOR_LINES {
-        let off = step * f64::from(line);
-        for (along, across) in [(DVec3::X, DVec3::Z), (DVec3::Z, DVec3::X)] {
-            let at = centre + across * off;
-            scene.stroke(at - along * reach, at + along * reach, theme::WIDTH_GRID, ink);
+    // On edge all lines of a direction would lie over each other, and the faintest over all.
+    let on_edge = (scene.camera.view_from_world * DVec3::Y).z.abs() < ON_EDGE;
+    let lines = if on_edge {
+        0..=0
+    } else {
+        -FLOOR_LINES..=FLOOR_LINES
+    };
+    let ink = Ink::new(theme::FAINT, Layer::Ground);
+    for line in lines {
+        for cell in -FLOOR_LINES..FLOOR_LINES {
+            let (across, along) = (f64::from(line), f64::from(cell));
+            let off = across.hypot(along + 0.5) / f64::from(FLOOR_LINES);
+            let strength = FLOOR_STRENGTH * (1.0 - off * off).max(0.0).powi(2);
+            if strength < 0.02 {
+                continue;
+            }
+            let ink = ink.faded(strength as f32);
+            for (forward, sideways) in [(DVec3::X, DVec3::Z), (DVec3::Z, DVec3::X)] {
+                let at = centre + sideways * (across * step);
+                let ends = [along, along + 1.0].map(|cells| at + forward * (cells * step));
+                scene.stroke(ends[0], ends[1], theme::WIDTH_GRID, ink);
+            }
         }
     }
 }

@@ -5,15 +5,14 @@
 
 use std::f32::consts::TAU;
 
-use glam::DVec3;
-use rig::{DeskView, PuppetState, PuppetView, Snapshot};
+use rig::{DeskView, PuppetState, Snapshot};
 
-use super::camera::Camera;
 use super::flat::{Flat, Viewport};
 use super::frame;
 use super::picture::Picture;
+use super::puppet;
 use super::raster::Canvas;
-use super::scene::{Dot, Ink, Layer, Mark, Scene, Stroke};
+use super::scene::Scene;
 use super::stage::{self, Look};
 use super::theme::{self, Rgb};
 
@@ -37,11 +36,12 @@ pub fn draw(seen: &Snapshot, look: &Look, caption: &str, width: u32, height: u32
         .max(1);
     let widths = SHARES.map(|share| (picture.width as f32 * share).round() as u32);
     let scene = stage::scene(seen, look);
+    let aspect = f64::from(widths[2].max(1)) / f64::from(middle);
     let mut x = 0;
     let views = [
         (scene.clone(), "figure"),
         (scene.side(), "side"),
-        (puppet(seen.puppet.as_ref()), "puppet, measured"),
+        (puppet::scene(seen.puppet.as_ref(), aspect), "puppet, measured"),
     ];
     for ((scene, name), width) in views.into_iter().zip(widths) {
         let width = width.min(picture.width - x);
@@ -112,33 +112,6 @@ fn state(state: PuppetState) -> (&'static str, Rgb) {
         PuppetState::Playing => ("playing", theme::LIVE),
         PuppetState::Faulted => ("faulted", theme::FAULTED),
     }
-}
-
-/// The puppet's links where they were measured, hung so that its whole height fits.
-fn puppet(puppet: Option<&PuppetView>) -> Scene {
-    // Large enough for arms held up; a marionette of any size is about as tall as its lines reach.
-    let bones = puppet.map(|p| p.bones.as_slice()).unwrap_or_default();
-    let reach = bones.iter().flatten().map(|at| at.y.abs()).fold(0.1, f64::max);
-    let centre = DVec3::new(0.0, -reach * 0.42, 0.0);
-    let mut scene = Scene::new(Camera::turned(0.3, 0.08, centre, reach * 1.15));
-    let live = puppet.is_some_and(|p| p.torque);
-    let colour = if live { theme::LIVE } else { theme::DIM };
-    let ink = Ink::new(colour, Layer::Figure);
-    for [from, to] in bones {
-        scene.strokes.push(Stroke {
-            from: *from,
-            to: *to,
-            width: theme::WIDTH_LINK,
-            ink,
-        });
-        scene.dots.push(Dot {
-            at: *from,
-            radius: 2.5,
-            mark: Mark::Disc,
-            ink,
-        });
-    }
-    scene
 }
 
 /// Dials with their pointers and labels, keys with theirs.

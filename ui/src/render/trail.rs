@@ -30,7 +30,7 @@ pub fn add_onion(
     let mut placed = Vec::new();
     // The faintest first, so that nearer moments lie over farther ones.
     for step in (1..=count).rev() {
-        let strength = 0.46 * (1.0 - f64::from(step - 1) / f64::from(count + 1));
+        let strength = 0.6 * (1.0 - f64::from(step - 1) / f64::from(count + 1));
         for secs in [
             now_secs - f64::from(step) * step_secs,
             now_secs + f64::from(step) * step_secs,
