@@ -170,8 +170,8 @@ fn garbage_on_a_servo_line_is_counted_and_moves_nothing() {
 }
 
 /// Events name controls that there are.
-fn tame(event: InputEvent) {
-    match event {
+fn tame(event: &InputEvent) {
+    match *event {
         InputEvent::Dial {
             control,
             delta_counts,
@@ -201,9 +201,9 @@ fn garbage_on_input_lines_makes_no_wild_events() {
             codec.start(Instant::ZERO, &mut outgoing);
             for ms in 0..40_u64 {
                 let bytes = garbage(&mut chance, kind);
-                codec.decode(&bytes, &mut tame);
+                codec.decode(&bytes, &mut |event| tame(&event));
                 let now = Instant::ZERO.after(Duration::from_millis(ms * 50));
-                codec.advance(now, &mut outgoing, &mut tame);
+                codec.advance(now, &mut outgoing, &mut |event| tame(&event));
                 outgoing.drain().for_each(drop);
             }
             // What was held by accident is let go, once.

@@ -180,7 +180,8 @@ fn pages_and_comments_cite_pages_that_there_are() {
             let cited = line.split("docs/").skip(1).filter_map(|rest| {
                 let end = rest.find(|c: char| !(c.is_alphanumeric() || "/_-.".contains(c)));
                 let path = rest[..end.unwrap_or(rest.len())].trim_end_matches('.');
-                path.ends_with(".md").then(|| format!("docs/{path}"))
+                let is_page = Path::new(path).extension().is_some_and(|end| end == "md");
+                is_page.then(|| format!("docs/{path}"))
             });
             // Only from the root: `../docs` and the documents of others are something else.
             let ours = !line.contains("://") && !line.contains("/docs/");

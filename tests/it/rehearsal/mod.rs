@@ -164,7 +164,7 @@ impl Rehearsal {
     /// Ends all faults and plugs everything in.
     pub(crate) fn mend(&mut self) {
         for at in 0..self.buses.len() {
-            self.buses[at].line.with(|bus, now_us| bus.mend(now_us));
+            self.buses[at].line.with(ServoBus::mend);
             self.plug(at, true);
         }
     }

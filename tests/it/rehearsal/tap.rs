@@ -111,13 +111,12 @@ impl Tap {
             if !written.touches(GOAL, GOAL + 3) {
                 continue;
             }
-            match (written.value_at(GOAL), self.bounds.get(&written.id)) {
-                (Some(goal), Some(bounds)) => self.judge_goal(&mut seen, now, written.id, goal, bounds),
-                _ => {
-                    let id = written.id;
-                    seen.wrong
-                        .push(format!("servo {id}: part of a goal, or nobody's"));
-                }
+            if let (Some(goal), Some(bounds)) = (written.value_at(GOAL), self.bounds.get(&written.id)) {
+                self.judge_goal(&mut seen, now, written.id, goal, bounds);
+            } else {
+                let id = written.id;
+                seen.wrong
+                    .push(format!("servo {id}: part of a goal, or nobody's"));
             }
         }
     }

@@ -17,11 +17,18 @@ use std::time::Duration;
 
 const BAUD: u32 = 9600;
 
+/// What points at the tablet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    Pen,
+    Eraser,
+    Puck,
+}
+
 /// One report as anybody would describe it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Seen {
-    pen: bool,
-    eraser: bool,
+    end: End,
     in_range: bool,
     x: u16,
     y: u16,
@@ -103,8 +110,7 @@ fn wanted(profile: &TabletProfile) -> Vec<Seen> {
         ]
     };
     let mut last = Seen {
-        pen: true,
-        eraser: false,
+        end: End::Pen,
         in_range: false,
         x: 0,
         y: 0,
@@ -121,10 +127,9 @@ fn wanted(profile: &TabletProfile) -> Vec<Seen> {
                 let [x, y] = place(pen.x, pen.y);
                 let pressure = (pen.pressure * f64::from(profile.surface.pressure)).round() as u16;
                 let tilt = tilted.then_some(pen.tilt_deg);
-                let (eraser, tip, buttons) = (pen.eraser, pen.tip, pen.buttons);
+                let (tip, buttons) = (pen.tip, pen.buttons);
                 Seen {
-                    pen: true,
-                    eraser,
+                    end: if pen.eraser { End::Eraser } else { End::Pen },
                     in_range: true,
                     x,
                     y,
@@ -138,10 +143,9 @@ fn wanted(profile: &TabletProfile) -> Vec<Seen> {
             Touch::Puck(puck) => {
                 let [x, y] = place(puck.x, puck.y);
                 let (buttons, wheel) = (puck.buttons, puck.wheel as i8);
-                let (pen, eraser, pressure, tip) = (false, false, 0, false);
+                let (end, pressure, tip) = (End::Puck, 0, false);
                 Seen {
-                    pen,
-                    eraser,
+                    end,
                     in_range: true,
                     x,
                     y,
@@ -304,8 +308,11 @@ impl Reader {
         let clicks = (last_byte >> 4 & 3) as i8;
         let lean = |at: usize| ((packet[at] << 1) as i8) >> 1;
         let seen = Seen {
-            pen,
-            eraser: self.eraser,
+            end: match (pen, self.eraser) {
+                (true, false) => End::Pen,
+                (true, true) => End::Eraser,
+                (false, _) => End::Puck,
+            },
             in_range,
             x: (wide(0) & 3) << 14 | wide(1) << 7 | wide(2),
             y: (wide(3) & 3) << 14 | wide(4) << 7 | wide(5),
@@ -388,8 +395,11 @@ fn our_codec_sees_the_same() {
             for event in events {
                 if let InputEvent::Pen(sample) = event.what {
                     seen.push(Seen {
-                        pen: sample.tool != Tool::Puck,
-                        eraser: sample.tool == Tool::Eraser,
+                        end: match sample.tool {
+                            Tool::Pen => End::Pen,
+                            Tool::Eraser => End::Eraser,
+                            Tool::Puck => End::Puck,
+                        },
                         in_range: sample.in_range,
                         x: sample.x_counts,
                         y: sample.y_counts,

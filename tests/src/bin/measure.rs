@@ -45,7 +45,7 @@ fn chosen(names: &[String]) -> anyhow::Result<Vec<&'static Measure>> {
     Ok(MEASURES.iter().filter(wanted).collect())
 }
 
-fn print(row: Row) {
+fn print(row: &Row) {
     let mut out = std::io::stdout().lock();
     // A reader that has gone away wants nothing more.
     let _ = writeln!(out, "{}", row.json());

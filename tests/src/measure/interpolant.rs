@@ -3,7 +3,7 @@
 //! 1000 figures of 15 links and 12 keys, each with its own keys and its own kinetic spline; outputs are start and
 //! frame of every link. Source: `docs/math.md`, "Speed".
 
-use super::{Row, Subject, medians};
+use super::{Row, Subject, Tell, medians};
 use crate::measure::rig_step::nanos_per;
 use glam::DVec3;
 use motion::{Clip, Figure, FigureKey, FigurePose, Keyframes, KineticsMode, LinkPose, LinkSpec, Placed};
@@ -83,7 +83,7 @@ fn clip(figure: &Arc<Figure>, chance: &mut Chance) -> anyhow::Result<Clip> {
 }
 
 /// Takes the measure.
-pub fn take(tell: &mut dyn FnMut(Row)) -> anyhow::Result<()> {
+pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
     let figure = figure()?;
     let mut chance = Chance(1);
     let clips: Vec<Clip> = (0..FIGURES)
@@ -98,7 +98,7 @@ pub fn take(tell: &mut dyn FnMut(Row)) -> anyhow::Result<()> {
     ];
     let values = medians(&mut subjects, ROUNDS)?;
     for (subject, value) in subjects.iter().zip(values) {
-        tell(Row {
+        tell(&Row {
             measure: NAME,
             row: subject.row.clone(),
             subject: subject.name,

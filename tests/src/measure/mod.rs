@@ -10,6 +10,9 @@ pub mod servo_cycle;
 
 use serde_json::{Value, json};
 
+/// Whoever is told the rows of a measure.
+pub type Tell<'a> = dyn FnMut(&Row) + 'a;
+
 /// One measure.
 pub struct Measure {
     /// As given on the command line.
@@ -17,7 +20,7 @@ pub struct Measure {
     /// What is measured, and which way is better.
     pub about: &'static str,
     /// Takes it; rows are told as they are known.
-    pub take: fn(&mut dyn FnMut(Row)) -> anyhow::Result<()>,
+    pub take: fn(&mut Tell<'_>) -> anyhow::Result<()>,
 }
 
 /// All measures, in the order in which they are taken.

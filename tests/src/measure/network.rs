@@ -5,7 +5,7 @@
 //! should. Source of the dial network: `docs/protocols/ps300.md`, "Canonical dial network".
 
 use super::rig_step::nanos_per;
-use super::{Row, Subject, medians};
+use super::{Row, Subject, Tell, medians};
 use ps300::Machine;
 use std::fmt::Write;
 use std::hint::black_box;
@@ -121,7 +121,7 @@ impl Shape {
 }
 
 /// Takes the measure.
-pub fn take(tell: &mut dyn FnMut(Row)) -> anyhow::Result<()> {
+pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
     let mut subjects = [
         subject("dials", Shape::dials()?, 2000),
         subject("chain", Shape::chain()?, 40),
@@ -129,7 +129,7 @@ pub fn take(tell: &mut dyn FnMut(Row)) -> anyhow::Result<()> {
     ];
     let values = medians(&mut subjects, ROUNDS)?;
     for (subject, value) in subjects.iter().zip(values) {
-        tell(Row {
+        tell(&Row {
             measure: NAME,
             row: subject.row.clone(),
             subject: subject.name,

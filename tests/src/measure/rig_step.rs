@@ -3,7 +3,7 @@
 //! The simulated box talks with the rig over a line in memory; its own doing and the moving of bytes are outside
 //! the measured time. Rig, show and network are the shipped ones.
 
-use super::{Row, Subject, medians};
+use super::{Row, Subject, Tell, medians};
 use device::codec::sgi_dial_box::SgiDialBox as DialCodec;
 use device::transport::memory::{MemoryTransport, pair};
 use device::transport::{Transport, TransportError};
@@ -153,7 +153,7 @@ pub fn listening_codec() -> anyhow::Result<DialCodec> {
 }
 
 /// Takes the measure.
-pub fn take(tell: &mut dyn FnMut(Row)) -> anyhow::Result<()> {
+pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
     let reports = reports()?;
     let mut turned = DialRig::new()?;
     let mut idle = DialRig::new()?;
@@ -178,7 +178,7 @@ pub fn take(tell: &mut dyn FnMut(Row)) -> anyhow::Result<()> {
     let values = medians(&mut subjects, ROUNDS)?;
     let decoded = values.first().copied().unwrap_or(f64::NAN);
     for (at, (subject, value)) in subjects.iter().zip(values).enumerate() {
-        tell(Row {
+        tell(&Row {
             measure: NAME,
             row: subject.row.clone(),
             subject: subject.name,

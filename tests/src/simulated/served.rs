@@ -96,11 +96,8 @@ impl<F: Wired> Server<F> {
         let mut heard = [0_u8; 4096];
         let mut said = Vec::with_capacity(4096);
         while !self.ended.load(Ordering::Relaxed) {
-            let count = match self.pty.read(&mut heard) {
-                Ok(count) => count,
-                // Nobody holds the other side, or the terminal is gone: look again later.
-                Err(_) => 0,
-            };
+            // An error is nobody holding the other side, or the terminal gone: look again later.
+            let count = self.pty.read(&mut heard).unwrap_or_default();
             let now = self.clock.now();
             let now_us = now.as_micros();
             let host_baud = self.pty.host_baud();

@@ -34,7 +34,7 @@ pub fn members(count: u8) -> Vec<Member> {
     let limits = Limits::new([-1.5, 1.5], 4.0, 20.0).expect("numbers in order");
     let of = |id: u8| {
         let profile = xl430();
-        let centre = profile.centre_counts as i32;
+        let centre = profile.centre_counts;
         Member::new(&format!("joint {id}"), id, profile, 1, centre, limits).expect("the range fits the turn")
     };
     (1..=count).map(of).collect()

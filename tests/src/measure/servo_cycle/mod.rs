@@ -13,7 +13,7 @@ mod ours;
 mod peers;
 mod port;
 
-use super::{Row, Subject, median, medians};
+use super::{Row, Subject, Tell, median, medians};
 use crate::simulated::{Line, Served, bus_of};
 use device::{Clock, MonotonicClock};
 use firmware_sim::ServoBus;
@@ -65,7 +65,7 @@ fn line(clock: MonotonicClock) -> Line<ServoBus> {
 }
 
 /// Takes the measure.
-pub fn take(tell: &mut dyn FnMut(Row)) -> anyhow::Result<()> {
+pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
     // Only exactness is lost where the kernel refuses.
     let _ = rustix::thread::set_current_timer_slack(NonZeroU64::new(TIMER_SLACK_NANOS));
     let clock = MonotonicClock::new();
@@ -124,7 +124,7 @@ pub fn take(tell: &mut dyn FnMut(Row)) -> anyhow::Result<()> {
     let values = medians(&mut subjects, ROUNDS)?;
     for ((subject, value), block) in subjects.iter().zip(values).zip(blocks) {
         let limit = limit_ms(SERVOS.into(), block.into(), BAUD);
-        tell(Row {
+        tell(&Row {
             measure: NAME,
             row: subject.row.clone(),
             subject: subject.name,

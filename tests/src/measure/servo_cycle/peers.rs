@@ -62,13 +62,11 @@ impl Cycle for Dynamixel2 {
         };
         self.bus
             .sync_read_cb(&self.ids, address(self.block), self.block, each)?;
-        match failed {
-            Some(error) => Err(anyhow!("dynamixel2: {error}")),
-            None => {
-                ensure!(answered == self.ids.len(), "{answered} servos answered");
-                Ok(())
-            }
+        if let Some(error) = failed {
+            return Err(anyhow!("dynamixel2: {error}"));
         }
+        ensure!(answered == self.ids.len(), "{answered} servos answered");
+        Ok(())
     }
 }
 
