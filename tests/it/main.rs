@@ -4,6 +4,7 @@ mod anomalies;
 mod directions;
 mod docs;
 mod golden;
+mod measures;
 mod motion_capture;
 mod properties;
 mod rehearsal;
