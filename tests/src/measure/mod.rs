@@ -65,6 +65,8 @@ pub struct Row {
     pub subject: &'static str,
     /// The median.
     pub value: f64,
+    /// The best repetition: how near to undisturbed the machine was.
+    pub best: f64,
     /// Its unit.
     pub unit: &'static str,
     /// What it is held against; none: nothing.
@@ -78,7 +80,7 @@ impl Row {
     pub fn json(&self) -> Value {
         json!({
             "measure": self.measure, "row": self.row, "subject": self.subject, "value": shown(self.value),
-            "unit": self.unit, "limit": self.limit.map(shown), "ratio": self.ratio.map(shown),
+            "unit": self.unit, "limit": self.limit.map(shown), "ratio": self.ratio.map(shown), "best": shown(self.best),
         })
     }
 }
@@ -96,19 +98,31 @@ pub(crate) struct Subject<'a> {
     pub(crate) repeat: Box<dyn FnMut() -> anyhow::Result<f64> + 'a>,
 }
 
-/// Takes every subject's repetitions in turn, so that what disturbs the machine disturbs all alike, and gives
-/// each one's median.
-pub(crate) fn medians(subjects: &mut [Subject<'_>], rounds: usize) -> anyhow::Result<Vec<f64>> {
+/// What came of all repetitions of a subject.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Taken {
+    pub(crate) median: f64,
+    pub(crate) least: f64,
+    pub(crate) most: f64,
+}
+
+/// Takes every subject's repetitions in turn, so that what disturbs the machine disturbs all alike.
+pub(crate) fn repeated(subjects: &mut [Subject<'_>], rounds: usize) -> anyhow::Result<Vec<Taken>> {
     let mut values = vec![Vec::with_capacity(rounds); subjects.len()];
     for _ in 0..rounds {
         for (subject, values) in subjects.iter_mut().zip(&mut values) {
             values.push((subject.repeat)()?);
         }
     }
-    Ok(values.iter_mut().map(|values| median(values)).collect())
+    let taken = values.iter_mut().map(|values| Taken {
+        median: median(values),
+        least: values.first().copied().unwrap_or(f64::NAN),
+        most: values.last().copied().unwrap_or(f64::NAN),
+    });
+    Ok(taken.collect())
 }
 
-/// The middle value; of an even number the mean of the two in the middle.
+/// Sorts, and gives the middle value; of an even number the mean of the two in the middle.
 pub(crate) fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;
@@ -138,6 +152,7 @@ mod tests {
             row: "r".to_owned(),
             subject: "s",
             value: 1.0 / 3.0,
+            best: 0.25,
             unit: "ms",
             limit: None,
             ratio: Some(2.0),
@@ -145,7 +160,7 @@ mod tests {
         let text = row.json().to_string();
         assert_eq!(
             text,
-            r#"{"measure":"m","row":"r","subject":"s","value":0.33333,"unit":"ms","limit":null,"ratio":2.0}"#
+            r#"{"measure":"m","row":"r","subject":"s","value":0.33333,"unit":"ms","limit":null,"ratio":2.0,"best":0.25}"#
         );
     }
 }

@@ -3,7 +3,7 @@
 //! The simulated box talks with the rig over a line in memory; its own doing and the moving of bytes are outside
 //! the measured time. Rig, show and network are the shipped ones.
 
-use super::{Row, Subject, Tell, medians};
+use super::{Row, Subject, Tell, repeated};
 use device::codec::sgi_dial_box::SgiDialBox as DialCodec;
 use device::transport::memory::{MemoryTransport, pair};
 use device::transport::{Transport, TransportError};
@@ -26,7 +26,7 @@ const STEP: Duration = Duration::from_millis(10);
 /// Longest time for box and rig to get to know each other, lamps and twenty labels included: 220 bytes at 1 ms.
 const MEETING_STEPS: usize = 200;
 const STEPS_A_ROUND: usize = 200;
-const ROUNDS: usize = 15;
+const ROUNDS: usize = 51;
 
 /// Nanoseconds that `act` took for each of `count` things.
 pub(crate) fn nanos_per(count: usize, act: impl FnOnce()) -> f64 {
@@ -175,17 +175,18 @@ pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
             repeat: Box::new(|| Ok(steps(&mut idle, false))),
         },
     ];
-    let values = medians(&mut subjects, ROUNDS)?;
-    let decoded = values.first().copied().unwrap_or(f64::NAN);
-    for (at, (subject, value)) in subjects.iter().zip(values).enumerate() {
+    let taken = repeated(&mut subjects, ROUNDS)?;
+    let decoded = taken.first().map_or(f64::NAN, |taken| taken.median);
+    for (at, (subject, taken)) in subjects.iter().zip(taken).enumerate() {
         tell(&Row {
             measure: NAME,
             row: subject.row.clone(),
             subject: subject.name,
-            value,
+            value: taken.median,
+            best: taken.least,
             unit: "ns",
             limit: (at > 0).then_some(decoded),
-            ratio: (at > 0).then_some(value / decoded),
+            ratio: (at > 0).then_some(taken.median / decoded),
         });
     }
     Ok(())

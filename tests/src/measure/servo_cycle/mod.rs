@@ -13,7 +13,7 @@ mod ours;
 mod peers;
 mod port;
 
-use super::{Row, Subject, Tell, median, medians};
+use super::{Row, Subject, Tell, median, repeated};
 use crate::simulated::{Line, Served, bus_of};
 use device::{Clock, MonotonicClock};
 use firmware_sim::ServoBus;
@@ -121,17 +121,18 @@ pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
             repeat: Box::new(move || repetition(clock, cycle.as_mut())),
         })
         .collect();
-    let values = medians(&mut subjects, ROUNDS)?;
-    for ((subject, value), block) in subjects.iter().zip(values).zip(blocks) {
+    let taken = repeated(&mut subjects, ROUNDS)?;
+    for ((subject, taken), block) in subjects.iter().zip(taken).zip(blocks) {
         let limit = limit_ms(SERVOS.into(), block.into(), BAUD);
         tell(&Row {
             measure: NAME,
             row: subject.row.clone(),
             subject: subject.name,
-            value,
+            value: taken.median,
+            best: taken.least,
             unit: "ms",
             limit: Some(limit),
-            ratio: Some(limit / value),
+            ratio: Some(limit / taken.median),
         });
     }
     Ok(())
@@ -181,10 +182,9 @@ mod tests {
             peers::rustypot_memory(clock, 4),
         ];
         for cycle in &mut cycles {
-            // One failure is a busy machine's doing.
-            if cycle.run().is_err() {
-                cycle.run().expect("the cycle comes about");
-            }
+            // A bus arms itself first; and a busy machine may stop us for longer than a peer waits.
+            let went_well = (0..8).any(|_| cycle.run().is_ok());
+            assert!(went_well, "the cycle never comes about");
         }
     }
 }
