@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
 
 use bench::world::Equipment;
-use rig::{Command, Live, NoteLevel, PuppetCommand, PuppetState, Snapshot, TransportCommand};
+use rig::{Command, Live, NoteLevel, PuppetCommand, PuppetState, PuppetView, Snapshot, TransportCommand};
 
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
@@ -25,6 +25,8 @@ Examples:
 const WAITING: usize = 128;
 /// A puppet that has not armed or let go by then never will.
 const PATIENCE_SECS: f64 = 10.0;
+/// Why servos cannot be armed is told by steps shortly after.
+const REASONS_SECS: f64 = 0.1;
 
 /// A show on a servo puppet, without a window
 ///
@@ -124,6 +126,25 @@ fn pass_on(seen: &SyncSender<Arc<Snapshot>>, snapshot: &Arc<Snapshot>) {
     let _ = seen.try_send(Arc::clone(snapshot));
 }
 
+/// What a performance waits for.
+#[derive(Clone, Copy, Debug)]
+enum Wanted {
+    /// All lines of the puppet are open.
+    Lines,
+    /// The player is in this state.
+    State(PuppetState),
+}
+
+impl Wanted {
+    fn is_met(self, puppet: &PuppetView) -> bool {
+        match self {
+            // A puppet without lines says so as its fault.
+            Self::Lines => puppet.fault.is_none(),
+            Self::State(state) => puppet.state == state,
+        }
+    }
+}
+
 struct Performance<'a> {
     console: &'a Console,
     args: &'a Args,
@@ -143,15 +164,19 @@ impl Performance<'_> {
         }));
         live.send(Command::Transport(TransportCommand::Speed(self.args.speed)));
         live.send(Command::Transport(TransportCommand::Loop(self.args.looped)));
+        let console = self.console;
+        let mut until = |wanted, limit_secs| self.until(snapshots, interrupt, limit_secs, wanted);
+        // Without lines there is nobody to arm.
+        until(Wanted::Lines, Some(PATIENCE_SECS))?;
         live.send(Command::Puppet(PuppetCommand::Arm));
-        self.until(snapshots, interrupt, Some(PATIENCE_SECS), PuppetState::Holding)?;
-        self.console.remark("armed: goals pinned to the measured pose");
+        until(Wanted::State(PuppetState::Holding), Some(PATIENCE_SECS))?;
+        console.remark("armed: goals pinned to the measured pose");
         live.send(Command::Puppet(PuppetCommand::Play));
-        self.until(snapshots, interrupt, Some(PATIENCE_SECS), PuppetState::Playing)?;
-        self.until(snapshots, interrupt, None, PuppetState::Holding)?;
-        self.console.remark("played; letting go");
+        until(Wanted::State(PuppetState::Playing), Some(PATIENCE_SECS))?;
+        until(Wanted::State(PuppetState::Holding), None)?;
+        console.remark("played; letting go");
         live.send(Command::Puppet(PuppetCommand::Release));
-        self.until(snapshots, interrupt, Some(PATIENCE_SECS), PuppetState::Released)
+        until(Wanted::State(PuppetState::Released), Some(PATIENCE_SECS))
     }
 
     /// Follows what is seen until the puppet is as wanted.
@@ -160,9 +185,9 @@ impl Performance<'_> {
         snapshots: &Receiver<Arc<Snapshot>>,
         interrupt: &Interrupt,
         limit_secs: Option<f64>,
-        wanted: PuppetState,
+        wanted: Wanted,
     ) -> Result<(), Failure> {
-        let mut began_secs = None;
+        let (mut began_secs, mut refused_secs, mut arming) = (None, None, false);
         loop {
             if interrupt.came() {
                 return Err(Failure::stopped(true));
@@ -175,9 +200,17 @@ impl Performance<'_> {
             if let Some(log) = &mut self.log {
                 log.rows(&seen)?;
             }
-            if puppet.state == wanted {
+            if wanted.is_met(puppet) {
                 return Ok(());
             }
+            if arming && puppet.state == PuppetState::Released {
+                let since_secs = *refused_secs.get_or_insert(seen.at_secs);
+                if seen.at_secs - since_secs > REASONS_SECS {
+                    let message = format!("puppet {} cannot be armed as it is", puppet.name);
+                    return Err(Failure::device(message));
+                }
+            }
+            arming |= puppet.state == PuppetState::Arming;
             if puppet.state == PuppetState::Faulted {
                 return Err(Failure::device(puppet.fault.clone().unwrap_or_default()));
             }
@@ -186,7 +219,7 @@ impl Performance<'_> {
                 let why = puppet
                     .fault
                     .clone()
-                    .unwrap_or_else(|| format!("it did not become {wanted:?} in time").to_lowercase());
+                    .unwrap_or_else(|| format!("nothing came of it in {PATIENCE_SECS} s"));
                 return Err(Failure::device(format!("puppet {}: {why}", puppet.name)));
             }
         }

@@ -168,3 +168,19 @@ fn torque_that_nobody_speaks_of_is_not_called_off() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.contains("no servo answered at 57600 baud"), "{said}");
 }
+
+#[test]
+fn a_puppet_without_one_of_its_servos_is_not_armed() {
+    let upper = Simulated::start("sim servo-bus --servo XL330-M288:1-3,XL330-M288:11-14 --baud 1000000");
+    let lower = Simulated::start(
+        "sim servo-bus --servo XL430-W250:1-3,XL430-W250:11-14,XL430-W250:21-24 --baud 1000000",
+    );
+    let args = format!(
+        "play shows/salute --port {} --port {}",
+        upper.address, lower.address
+    );
+    let output = dialrig(&args).output().expect("runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("puppet Marionette cannot be armed"), "{said}");
+}
