@@ -20,6 +20,10 @@ pub trait Session: Send + Sync {
     fn snapshot(&self) -> Arc<Snapshot>;
     /// Passes on what a hand wants done; never waits.
     fn send(&self, command: Command);
+    /// Whether the window is to close by itself, as after Ctrl-C where the program was started.
+    fn is_over(&self) -> bool {
+        false
+    }
 }
 
 impl Session for rig::live::Live {
@@ -40,6 +44,10 @@ impl<S: Session + ?Sized> Session for Arc<S> {
 
     fn send(&self, command: Command) {
         (**self).send(command);
+    }
+
+    fn is_over(&self) -> bool {
+        (**self).is_over()
     }
 }
 
@@ -155,6 +163,9 @@ impl App {
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        if self.session.is_over() {
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+        }
         let seen = self.session.snapshot();
         for command in self.studio.ui(ui, &seen) {
             self.session.send(command);

@@ -155,7 +155,7 @@ fn edit_buttons(ui: &mut Ui, area: Rect, seen: &Snapshot, commands: &mut Command
     let posed = seen.figure.is_some();
     let store = Button::new(
         "Store",
-        "Stores the pose on screen as a key at the present time.",
+        "Stores the pose on screen: in the selected key, else as a new one at the present time.",
         "K",
     );
     if store.enabled(posed).show(ui, cells[0]).clicked() {
@@ -177,10 +177,12 @@ fn edit_buttons(ui: &mut Ui, area: Rect, seen: &Snapshot, commands: &mut Command
     }
 }
 
-/// Stores the pose on screen at the present time.
+/// Stores the pose on screen: into the selected key, which is the one at hand, or else at the present time. A
+/// second key a few milliseconds beside the first would send the kinetic curve far out of its way.
 pub fn store_command(seen: &Snapshot) -> Command {
+    let selected = seen.keys.iter().find(|key| key.selected);
     Command::Edit(EditCommand::StoreKey {
-        secs: seen.transport.secs,
+        secs: selected.map_or(seen.transport.secs, |key| key.secs),
     })
 }
 

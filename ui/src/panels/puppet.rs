@@ -198,14 +198,14 @@ fn remark_lines(ui: &Ui, area: Rect, puppet: &PuppetView) {
 /// What the servo loop noticed, in one line.
 fn doings(puppet: &PuppetView) -> String {
     let counts = [
-        (puppet.interventions, "goals limited"),
-        (puppet.stale_discarded, "late answers dropped"),
-        (puppet.late_cycles, "late cycles"),
+        (puppet.interventions, "goal", "limited"),
+        (puppet.stale_discarded, "answer", "too late"),
+        (puppet.late_cycles, "cycle", "late"),
     ];
     let said: Vec<String> = counts
         .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, what)| format!("{count} {what}"))
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, what, how)| format!("{count} {what}{} {how}", if *count == 1 { "" } else { "s" }))
         .collect();
     if said.is_empty() {
         "nothing limited, nothing late".to_owned()

@@ -2,7 +2,7 @@
 
 use egui::accesskit::Role;
 use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
-use rig::{Command, EditCommand, Snapshot, TransportCommand};
+use rig::{Command, EditCommand, Snapshot, TransportCommand, TransportView};
 
 use super::button;
 use super::keys::paint_diamond;
@@ -47,15 +47,17 @@ impl Panel for Transport {
         );
         transport_buttons::show(ui, buttons, seen, commands);
         // Room at both ends, so that the first and last diamond are whole.
+        let [start_secs, end_secs] = shown_secs(&seen.transport);
         let line = Timeline::new(
-            seen.transport.start_secs,
-            seen.transport.end_secs,
+            start_secs,
+            end_secs,
             area.left() + theme::GAP,
             area.right() - theme::GAP,
         );
         let ground = Rect::from_min_max(curve.min, track.max);
         ui.painter()
             .rect_filled(ground, style::round(), ink(theme::GROUND));
+        paint_outside(ui, ground, &line, seen);
         scrub(
             ui,
             Rect::from_min_max(curve.min, ruler.max),
@@ -130,7 +132,7 @@ fn scrub(ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut C
     let response = button::spot(ui, area, id, Sense::click_and_drag(), (Role::Canvas, "scrub"));
     let pressed = response.dragged() || response.clicked();
     if let (true, Some(at)) = (pressed, response.interact_pointer_pos()) {
-        let secs = line.secs(at.x);
+        let secs = snapped(seen, line, at.x);
         if (secs - seen.transport.secs).abs() > 1e-6 {
             commands.push(Command::Transport(TransportCommand::Seek { secs }));
         }
@@ -146,6 +148,46 @@ fn scrub(ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut C
         "Drag to move through time.",
         "Left, Right; Shift for ten frames",
     );
+}
+
+/// Room before the first and after the last key, in shares of the clip, and at least so many seconds: there new
+/// keys are set and the outer ones moved to.
+const ROOM: f64 = 0.06;
+const ROOM_SECS: f64 = 0.25;
+
+/// What the strip shows: the clip with some room, and in any case the present moment.
+fn shown_secs(transport: &TransportView) -> [f64; 2] {
+    let room_secs = ((transport.end_secs - transport.start_secs) * ROOM).max(ROOM_SECS);
+    let first = (transport.start_secs - room_secs).max(0.0);
+    let last = transport.end_secs + room_secs;
+    [first.min(transport.secs), last.max(transport.secs)]
+}
+
+/// The pointer this near to a key means the key, points.
+const SNAP: f32 = 5.0;
+
+/// The moment at `x`, or the key that is nearly there.
+fn snapped(seen: &Snapshot, line: &Timeline, x: f32) -> f64 {
+    let away = |secs: f64| (line.x(secs) - x).abs();
+    let keys = seen.keys.iter().map(|key| key.secs);
+    let nearest = keys.min_by(|a, b| away(*a).total_cmp(&away(*b)));
+    nearest
+        .filter(|secs| away(*secs) <= SNAP)
+        .unwrap_or_else(|| line.secs(x))
+}
+
+/// Time in which the clip does not play.
+fn paint_outside(ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot) {
+    if seen.keys.is_empty() {
+        return;
+    }
+    let (first, last) = (line.x(seen.transport.start_secs), line.x(seen.transport.end_secs));
+    for outside in [area.left()..=first, last..=area.right()] {
+        if outside.end() - outside.start() > theme::GAP {
+            let rect = Rect::from_x_y_ranges(outside, area.y_range());
+            ui.painter().rect_filled(rect, style::round(), ink(theme::PANEL));
+        }
+    }
 }
 
 /// The nearest that two keys may come, seconds: half a frame at 24 a second.
@@ -208,4 +250,42 @@ fn paint_playhead(ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot) {
         ink(theme::LIVE),
         egui::Stroke::NONE,
     ));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rig::KeyView;
+
+    #[test]
+    fn the_strip_has_room_and_shows_the_present() {
+        let shown = |start_secs, end_secs, secs| {
+            shown_secs(&TransportView {
+                start_secs,
+                end_secs,
+                secs,
+                ..TransportView::default()
+            })
+        };
+        assert_eq!(shown(0.0, 10.0, 3.0), [0.0, 10.6]);
+        assert_eq!(shown(0.0, 10.0, 14.0), [0.0, 14.0], "after the last key");
+        assert_eq!(shown(2.0, 3.0, 0.5), [0.5, 3.25], "before the first");
+        assert_eq!(shown(0.0, 0.0, 0.0), [0.0, 0.25], "no clip yet");
+    }
+
+    #[test]
+    fn a_pointer_beside_a_key_means_the_key() {
+        let keys = [0.0, 1.0, 1.03].map(|secs| KeyView {
+            secs,
+            selected: false,
+        });
+        let seen = Snapshot {
+            keys: keys.into(),
+            ..Snapshot::default()
+        };
+        let line = Timeline::new(0.0, 2.0, 0.0, 200.0);
+        for (x, want) in [(96.0, 1.0), (104.0, 1.03), (94.0, 0.94), (150.0, 1.5)] {
+            assert!((snapped(&seen, &line, x) - want).abs() < 1e-6, "{x}");
+        }
+    }
 }

@@ -14,7 +14,7 @@ const ELEVATION_RAD: f64 = 0.08;
 /// the shoulders and the longest way down a leg.
 const MIDDLE: f64 = -0.2;
 const HALF_HEIGHT: f64 = 0.8;
-const HALF_WIDTH: f64 = 0.5;
+const HALF_WIDTH: f64 = 0.57;
 /// Ends nearer than this are one point, metres.
 const JOINED_M: f64 = 1e-3;
 
