@@ -18,11 +18,12 @@ const FIGURES: usize = 1000;
 const LINKS: usize = 15;
 const KEYS: usize = 12;
 /// Figures placed a repetition when there is only one clip.
-const SINGLE_PLACES: usize = 10_000;
+const SINGLE_PLACES: usize = 1000;
 /// All clips last about so long.
 const SPAN_SECS: f64 = 6.0;
 const FRAME_SECS: f64 = 1.0 / 30.0;
-const ROUNDS: usize = 51;
+/// Many and short, so that most are over before anything else gets the processor.
+const ROUNDS: usize = 201;
 /// Parents of the thesis's figure, by number.
 const PARENTS: [usize; LINKS] = [0, 0, 1, 2, 3, 1, 5, 6, 1, 8, 9, 10, 8, 12, 13];
 
