@@ -34,7 +34,7 @@ impl Player {
     }
 
     fn arming_refused(&mut self, at: usize, now: Instant) {
-        self.report.arming_refused = true;
+        self.refused = true;
         if self.state == State::Arming {
             self.lines.release_all(now);
             self.state = State::Released;

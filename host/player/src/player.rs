@@ -81,6 +81,8 @@ pub struct Player {
     pub(crate) listening_since: Instant,
     pub(crate) heard_operator: Instant,
     pub(crate) strained_since: Vec<Option<Instant>>,
+    /// Arming was refused since the last report, perhaps between two ticks.
+    pub(crate) refused: bool,
     pub(crate) report: Report,
 }
 
@@ -106,6 +108,7 @@ impl Player {
             listening_since: Instant::ZERO,
             heard_operator: Instant::ZERO,
             strained_since: vec![None; count],
+            refused: false,
             report: Report {
                 joints: vec![JointReport::default(); count],
                 ..Report::default()
@@ -164,7 +167,6 @@ impl Player {
     /// allocate unless an order brings something new to play or something goes wrong.
     pub fn tick(&mut self, now: Instant, orders: &mut dyn Iterator<Item = Order>) -> &Report {
         self.report.rejected = None;
-        self.report.arming_refused = false;
         let dt = self.note_time(now);
         self.take_in(now);
         for order in orders {
@@ -174,6 +176,7 @@ impl Player {
         self.proceed(now, dt);
         self.drive(now);
         self.fill_report(now);
+        self.report.arming_refused = std::mem::take(&mut self.refused);
         &self.report
     }
 

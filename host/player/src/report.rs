@@ -120,6 +120,6 @@ pub struct Report {
     pub timeouts: u64,
     /// The last order of this tick that was not followed.
     pub rejected: Option<Rejection>,
-    /// Arming was refused in this tick; [`crate::Player::refusals`] says why.
+    /// Arming was refused in this tick or since the one before; [`crate::Player::refusals`] says why.
     pub arming_refused: bool,
 }

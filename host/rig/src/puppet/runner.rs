@@ -10,7 +10,7 @@ use device::clock::{Clock, Instant};
 use device::transport::Transport;
 use player::{Fault, Operator, Order, Player, PlayerConfig, Puppet, Report, State};
 
-use super::Pace;
+use super::{LOOK_AGAIN, Pace};
 use crate::ports::Ports;
 use crate::snapshot::NoteLevel;
 
@@ -48,6 +48,8 @@ pub(super) struct Threaded {
     seen: Arc<Mutex<Seen>>,
     thread: Option<JoinHandle<()>>,
     told: Told,
+    /// When a lost line is looked for again; none once it was given back, until the fault is left.
+    look_at: Option<Instant>,
 }
 
 enum Message {
@@ -163,7 +165,7 @@ impl Runner {
                     remarks.extend(refusals.map(|refusal| (NoteLevel::Warning, refusal)));
                 }
             }
-            Self::Threaded(threaded) => threaded.tell(lines, ports, remarks),
+            Self::Threaded(threaded) => threaded.tell(now, lines, ports, remarks),
         }
     }
 
@@ -242,10 +244,17 @@ impl Threaded {
             seen,
             thread,
             told: Told::default(),
+            look_at: Some(Instant::ZERO),
         }
     }
 
-    fn tell(&mut self, lines: &[Line], ports: &mut dyn Ports, remarks: &mut Vec<(NoteLevel, String)>) {
+    fn tell(
+        &mut self,
+        now: Instant,
+        lines: &[Line],
+        ports: &mut dyn Ports,
+        remarks: &mut Vec<(NoteLevel, String)>,
+    ) {
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         self.told.about(&seen.report, remarks);
         if seen.refused != self.told.refused {
@@ -254,11 +263,21 @@ impl Threaded {
         }
         let lost = lost_line(&seen.report.state, lines).cloned();
         drop(seen);
-        // A line that is back is given to the player at once; it stays faulted until the reset.
-        if let Some(line) = lost
-            && let Ok(transport) = ports.open(&line.address, line.baud)
-        {
-            let _ = self.messages.try_send(Message::Reconnect(line.bus, transport));
+        let Some(line) = lost else {
+            self.look_at = Some(Instant::ZERO);
+            return;
+        };
+        // A line that is back is given to the player once; the fault stands until the reset.
+        if self.look_at.is_some_and(|due| now >= due) {
+            self.look_at = Some(now.after(LOOK_AGAIN));
+            if let Ok(transport) = ports.open(&line.address, line.baud)
+                && self
+                    .messages
+                    .try_send(Message::Reconnect(line.bus, transport))
+                    .is_ok()
+            {
+                self.look_at = None;
+            }
         }
     }
 }
@@ -270,10 +289,12 @@ fn live(mut player: Player, clock: &dyn Clock, inbox: &Receiver<Message>, seen: 
         inbox,
         seen,
         returned: None,
+        refused: false,
         ended: false,
     };
     player::run(&mut player, clock, period, &mut post);
-    show(&player, seen);
+    let refused = std::mem::take(&mut post.refused);
+    show(&player, refused, seen);
 }
 
 /// The rig as the player's thread knows it: an inbox, and a place to show reports.
@@ -281,6 +302,8 @@ struct Post<'a> {
     inbox: &'a Receiver<Message>,
     seen: &'a Mutex<Seen>,
     returned: Option<(String, Box<dyn Transport>)>,
+    /// A refusal that nobody could be shown yet.
+    refused: bool,
     ended: bool,
 }
 
@@ -306,7 +329,10 @@ impl Operator for Post<'_> {
     }
 
     fn seen(&mut self, player: &Player) -> ControlFlow<()> {
-        show(player, self.seen);
+        self.refused |= player.report().arming_refused;
+        if show(player, self.refused, self.seen) {
+            self.refused = false;
+        }
         if self.ended {
             ControlFlow::Break(())
         } else {
@@ -315,9 +341,12 @@ impl Operator for Post<'_> {
     }
 }
 
-/// Copies the report for others without waiting for them: a reader at this moment sees the one before.
-fn show(player: &Player, seen: &Mutex<Seen>) {
-    let Ok(mut seen) = seen.try_lock() else { return };
+/// Copies the report for others without waiting for them: a reader at this moment sees the one before. Returns
+/// whether it was copied.
+fn show(player: &Player, refused: bool, seen: &Mutex<Seen>) -> bool {
+    let Ok(mut seen) = seen.try_lock() else {
+        return false;
+    };
     let report = player.report();
     let mut joints = std::mem::take(&mut seen.report.joints);
     joints.clone_from(&report.joints);
@@ -327,8 +356,9 @@ fn show(player: &Player, seen: &Mutex<Seen>) {
         rejected: report.rejected.clone(),
         ..*report
     };
-    if report.arming_refused {
+    if refused {
         seen.refused += 1;
         seen.refusals = player.refusals().map(ToString::to_string).collect();
     }
+    true
 }
