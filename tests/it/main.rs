@@ -10,5 +10,6 @@ mod properties;
 mod rehearsal;
 mod replay;
 mod source;
+mod studio_pictures;
 mod tidy;
 mod witness;

@@ -111,7 +111,9 @@ pub fn show(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'_>
 /// The time, large, with the clip's length beside it in the same digits.
 fn readout(ui: &Ui, at: egui::Pos2, seen: &Snapshot) {
     let now = clock_text(seen.transport.secs);
-    let colour = if seen.transport.playing {
+    // Time runs by itself, or the puppet takes it along.
+    let taken_along = seen.puppet.as_ref().is_some_and(|p| p.clip_secs.is_some());
+    let colour = if seen.transport.playing || taken_along {
         theme::LIVE
     } else {
         theme::TEXT
