@@ -73,6 +73,17 @@ pub enum ServoLineError {
     },
 }
 
+impl ServoLineError {
+    /// Whether line or servo are at fault, rather than what was asked for.
+    pub fn is_of_device(&self) -> bool {
+        use MaintenanceError::{Framing, Goal, Register};
+        !matches!(
+            self,
+            Self::UnknownModel { .. } | Self::Servo(Register(_) | Goal { .. } | Framing(_))
+        )
+    }
+}
+
 /// A line with servos on it.
 pub struct ServoLine {
     line: Maintenance,

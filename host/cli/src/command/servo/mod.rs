@@ -67,10 +67,13 @@ impl LineArgs {
 }
 
 /// A line or servo that does not do what it should is a device's fault; nothing here has given it torque.
+// Consumed, so that it can be handed to `map_err` by its name.
+#[expect(clippy::needless_pass_by_value)]
 fn failed(error: ServoLineError) -> Failure {
-    match error {
-        ServoLineError::UnknownModel { .. } => Failure::refused(error.to_string()),
-        other => Failure::device(other.to_string()),
+    if error.is_of_device() {
+        Failure::device(error.to_string())
+    } else {
+        Failure::refused(error.to_string())
     }
 }
 
