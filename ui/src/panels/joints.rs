@@ -8,8 +8,10 @@ use rig::{JointView, PuppetView};
 use super::style::{self, ink};
 use crate::render::theme;
 
-/// Heights of a row, points: what still reads, and what reads comfortably.
+/// Heights of a row, points: what still reads, and what is wide apart.
 const ROW: [f32; 2] = [12.0, 22.0];
+/// What reads comfortably, points.
+const ROW_WANTED: f32 = 18.0;
 /// Height of the row that says which column is which, points.
 const HEAD: f32 = 14.0;
 /// Width of the number, points: five digits.
@@ -58,7 +60,7 @@ fn rows(joints: &[JointView]) -> Vec<Row<'_>> {
 /// How high the table of these joints would like to be, points.
 pub fn height_wanted(joints: &[JointView]) -> f32 {
     let rows = rows(joints);
-    rows.len() as f32 * ROW[1] + head_height(&rows)
+    rows.len() as f32 * ROW_WANTED + head_height(&rows)
 }
 
 fn head_height(rows: &[Row<'_>]) -> f32 {

@@ -17,8 +17,10 @@ pub struct Puppet;
 
 /// Heights of STOP, points: the largest button there is.
 const STOP: [f32; 2] = [44.0, 72.0];
-/// Height of what a fault or the player has to say, points: two lines, kept free so that nothing jumps.
-const REMARK: f32 = 30.0;
+/// Heights of what a fault or the player has to say, points: two lines or four, kept free so that nothing jumps.
+const REMARK: [f32; 2] = [2.0 * LINE, 4.0 * LINE];
+/// Height of a line of it, points.
+const LINE: f32 = 15.0;
 /// Least height of the block with STOP and the puppet's picture, points.
 const BLOCK: f32 = STATE + STOP[0] + ORDERS + theme::GAP;
 /// The picture's part of the width, and how wide it is for its height: as a standing figure with an arm out.
@@ -41,10 +43,12 @@ struct Parts {
 impl Parts {
     /// Divides what the title leaves; `joints` is how high their table would like to be.
     fn of(rest: Rect, joints: f32) -> Parts {
-        let below = REMARK + 2.0 * theme::GAP + joints;
+        let below = REMARK[0] + 2.0 * theme::GAP + joints;
         let tallest = (rest.width() * PICTURE[0] / PICTURE[1]).max(BLOCK);
         let block = (rest.height() - below).clamp(BLOCK, tallest).floor();
         let width = (block * PICTURE[1]).round();
+        let spare = rest.height() - block - 2.0 * theme::GAP - joints;
+        let said = ((spare / LINE).floor() * LINE).clamp(REMARK[0], REMARK[1]);
         let bottom = rest.top() + block;
         let split = rest.right() - width;
         let rect = |x0: f32, y0: f32, x1: f32, y1: f32| Rect::from_min_max(pos2(x0, y0), pos2(x1, y1));
@@ -58,8 +62,8 @@ impl Parts {
             stop: rect(left, stop, right, stop_bottom),
             orders: rect(left, orders, right, bottom),
             picture: rect(split, rest.top(), rest.right(), bottom),
-            remark: rect(left, remark, rest.right(), remark + REMARK),
-            joints: rect(left, remark + REMARK + theme::GAP, rest.right(), rest.bottom()),
+            remark: rect(left, remark, rest.right(), remark + said),
+            joints: rect(left, remark + said + theme::GAP, rest.right(), rest.bottom()),
         }
     }
 }
@@ -183,7 +187,7 @@ fn remark_lines(ui: &Ui, area: Rect, puppet: &PuppetView) {
     );
     job.wrap = egui::text::TextWrapping {
         max_width: area.width(),
-        max_rows: 2,
+        max_rows: (area.height() / LINE) as usize,
         ..Default::default()
     };
     let galley = ui.painter().layout_job(job);

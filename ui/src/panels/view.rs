@@ -225,10 +225,12 @@ fn switches(ui: &mut Ui, area: Rect, commands: &mut Commands<'_>) {
 /// How long a remark stays, seconds.
 const REMARK_SECS: f64 = 8.0;
 
-/// The latest remark, for a while.
+/// The latest remark, for a while; what says why the puppet has stopped stays as long as it is stopped.
 pub fn current_remark(seen: &Snapshot) -> Option<&Note> {
     let note = seen.notes.last()?;
-    (seen.at_secs - note.at_secs < REMARK_SECS).then_some(note)
+    let stopped = seen.puppet.as_ref().and_then(|puppet| puppet.fault.as_ref());
+    let told = stopped.is_some_and(|fault| note.text.contains(fault));
+    (told || seen.at_secs - note.at_secs < REMARK_SECS).then_some(note)
 }
 
 /// The latest remark, in the lower left corner; long ones take two lines.
