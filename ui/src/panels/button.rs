@@ -197,18 +197,21 @@ pub fn focus_ring(ui: &Ui, response: &Response) {
 
 /// A tooltip: what it does, then the keys that do the same.
 pub fn tooltip(response: Response, tip: &str, keys: &str) -> Response {
-    let show = |ui: &mut Ui| {
-        ui.set_max_width(300.0);
-        ui.label(tip);
-        if !keys.is_empty() {
-            ui.label(
-                egui::RichText::new(keys)
-                    .font(style::digits(theme::SIZE_SMALL))
-                    .color(ink(theme::DIM)),
-            );
-        }
-    };
-    response.on_hover_ui(show)
+    response.on_hover_ui(|ui| tip_lines(ui, tip, keys))
+}
+
+/// The same for something large: beside the pointer, wherever that is.
+pub fn tooltip_at_pointer(response: Response, tip: &str, keys: &str) -> Response {
+    response.on_hover_ui_at_pointer(|ui| tip_lines(ui, tip, keys))
+}
+
+fn tip_lines(ui: &mut Ui, tip: &str, keys: &str) {
+    ui.set_max_width(300.0);
+    ui.label(tip);
+    if !keys.is_empty() {
+        let font = style::digits(theme::SIZE_SMALL);
+        ui.label(egui::RichText::new(keys).font(font).color(ink(theme::DIM)));
+    }
 }
 
 /// A place in a panel that can be clicked or dragged; it has a role and a name, as everything has.

@@ -240,6 +240,11 @@ fn orders(ui: &mut Ui, area: Rect, puppet: Option<&PuppetView>, clip: bool, comm
     let state = puppet.map(|p| p.state);
     let armed = matches!(state, Some(PuppetState::Holding | PuppetState::Playing));
     let playing = state == Some(PuppetState::Playing);
+    // Playing without a clip's time is following.
+    let doing = match puppet.and_then(|p| p.clip_secs) {
+        Some(_) => PuppetCommand::Play,
+        None => PuppetCommand::Follow,
+    };
     let row = |row: usize| {
         let top = area.top() + row as f32 * (theme::ROW + theme::STEP);
         let row = Rect::from_min_size(pos2(area.left(), top), vec2(area.width(), theme::ROW));
@@ -285,7 +290,7 @@ fn orders(ui: &mut Ui, area: Rect, puppet: Option<&PuppetView>, clip: bool, comm
         ),
     ];
     for ((name, tip, keys, order, enabled), cell) in buttons.into_iter().zip(cells) {
-        let live = playing && order == PuppetCommand::Play;
+        let live = playing && order == doing;
         let tone = if live { Tone::Live } else { Tone::Plain };
         // "Play" alone is the transport's.
         let called = format!("puppet {}", name.to_lowercase());

@@ -143,7 +143,7 @@ fn scrub(ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot, commands: &mut C
             .vline(x, area.top()..=area.bottom() - RULER, style::hair(theme::EDGE));
     }
     button::focus_ring(ui, &response);
-    button::tooltip(
+    button::tooltip_at_pointer(
         response,
         "Drag to move through time.",
         "Left, Right; Shift for ten frames",

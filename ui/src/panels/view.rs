@@ -290,7 +290,7 @@ impl Panel for Side {
             };
             commands.push(Command::Pose(PoseCommand::Side(side)));
         }
-        button::tooltip(
+        button::tooltip_at_pointer(
             response,
             "The same from the right. While posing, click near or far.",
             "N",

@@ -220,7 +220,8 @@ fn add_editing(scene: &mut Scene, figure: &FigureView) {
         scene.stroke(link.start, *candidate, theme::WIDTH_GHOST, ink.faded(0.5));
         scene.dot(*candidate, 4.0, Mark::Ring, ink);
     }
-    if let Some(cursor) = figure.cursor {
+    // After posing it says only where it was last.
+    if let Some(cursor) = figure.cursor.filter(|_| figure.posing) {
         add_cursor(scene, cursor);
     }
 }
