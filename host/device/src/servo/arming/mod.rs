@@ -69,7 +69,8 @@ impl Bus {
 
     /// As arming, but for members that were armed already: measures, pins, clears and re-arms the watchdog.
     pub(super) fn begin_pinning(&mut self, now: Instant) -> Result<(), BusError> {
-        self.begin_stage(Stage::Measure { tries: 0 }, now)
+        // From the profile on: a servo that restarted meanwhile has forgotten how fast it may turn.
+        self.begin_stage(Stage::Profile { written: 0 }, now)
     }
 
     fn begin_stage(&mut self, stage: Stage, now: Instant) -> Result<(), BusError> {
