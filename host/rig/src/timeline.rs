@@ -135,6 +135,14 @@ impl Timeline {
         &self.view
     }
 
+    /// Where a pose stored now belongs: at the key at hand, else at the present time. A second key a hundredth of a
+    /// second from the first would send the kinetic curve up and down between them.
+    pub(crate) fn store_secs(&self) -> f64 {
+        self.key_here()
+            .and_then(|key| self.key_secs.get(key).copied())
+            .unwrap_or(self.view.secs)
+    }
+
     /// The key at the present time: the nearest one within [`KEY_REACH_SECS`].
     pub(crate) fn key_here(&self) -> Option<usize> {
         let away = |secs: &f64| (secs - self.view.secs).abs();
@@ -207,6 +215,11 @@ mod tests {
         ] {
             t.apply(&TransportCommand::Seek { secs }).expect("seeks");
             assert_eq!(t.key_here(), want, "at {secs}");
+            assert_eq!(
+                t.store_secs(),
+                want.map_or(secs, |key| [0.0, 1.0, 3.0][key]),
+                "at {secs}"
+            );
         }
     }
 

@@ -49,7 +49,7 @@ impl Rig {
         match request {
             Request::Command(command) => self.apply(&command),
             Request::StoreKey => {
-                let secs = self.timeline.secs();
+                let secs = self.timeline.store_secs();
                 self.apply(&Command::Edit(EditCommand::StoreKey { secs }));
             }
             Request::DeleteKey => match self.timeline.key_here() {
