@@ -305,18 +305,26 @@ fn one() -> u16 {
     1
 }
 
-// serde hands references to `skip_serializing_if`.
-#[allow(clippy::trivially_copy_pass_by_ref)]
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands references to `skip_serializing_if`"
+)]
 fn is_one(count: &u16) -> bool {
     *count == 1
 }
 
-#[allow(clippy::trivially_copy_pass_by_ref)]
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands references to `skip_serializing_if`"
+)]
 fn is_zero(step: &i64) -> bool {
     *step == 0
 }
 
-#[allow(clippy::trivially_copy_pass_by_ref)]
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands references to `skip_serializing_if`"
+)]
 fn is_false(flag: &bool) -> bool {
     !*flag
 }
