@@ -12,6 +12,7 @@ pub mod language;
 pub mod machine;
 mod names;
 pub mod network;
+pub mod pick;
 mod structure;
 pub mod value;
 

@@ -10,7 +10,11 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
 
-/// One message. Matrices act on column vectors; their literals are written row by row.
+use crate::language::VectorList;
+use crate::pick::Pick;
+
+/// One message. Matrices act on column vectors; their literals are written row by row. What is larger than
+/// three numbers is shared, so that a message is small wherever it waits and copies cost the same.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// `TRUE` or `FALSE`.
@@ -26,15 +30,19 @@ pub enum Value {
     /// `V3D(x,y,z)`.
     Vector3(DVec3),
     /// `V4D(x,y,z,w)`.
-    Vector4(DVec4),
+    Vector4(Arc<DVec4>),
     /// `M2D(…)`, two rows of two.
-    Matrix2(DMat2),
+    Matrix2(Arc<DMat2>),
     /// `M3D(…)`, three rows of three.
-    Matrix3(DMat3),
+    Matrix3(Arc<DMat3>),
     /// `M4D(…)`, four rows of four.
-    Matrix4(DMat4),
+    Matrix4(Arc<DMat4>),
     /// Three rows of four, the kind LOOKAT makes: a linear part and, as last column, a translation.
-    Matrix4x3(DAffine3),
+    Matrix4x3(Arc<DAffine3>),
+    /// `VL(name)`: the vectors of a list, as it is when the command is executed.
+    Vectors(Arc<VectorList>),
+    /// What PICK found, outermost match first; no literal.
+    Picks(Arc<[Pick]>),
 }
 
 impl Value {
@@ -52,6 +60,8 @@ impl Value {
             Self::Matrix3(_) => Kind::Matrix3,
             Self::Matrix4(_) => Kind::Matrix4,
             Self::Matrix4x3(_) => Kind::Matrix4x3,
+            Self::Vectors(_) => Kind::Vectors,
+            Self::Picks(_) => Kind::Picks,
         }
     }
 
@@ -67,7 +77,8 @@ impl Value {
     /// False where any component is infinite or not a number.
     pub fn is_finite(&self) -> bool {
         match self {
-            Self::Boolean(_) | Self::Integer(_) | Self::String(_) => true,
+            // Lists are checked where they are made: by the parser, by nodes and by PICK.
+            Self::Boolean(_) | Self::Integer(_) | Self::String(_) | Self::Vectors(_) | Self::Picks(_) => true,
             Self::Real(x) => x.is_finite(),
             Self::Vector2(v) => v.is_finite(),
             Self::Vector3(v) => v.is_finite(),
@@ -98,11 +109,13 @@ pub enum Kind {
     Matrix3,
     Matrix4,
     Matrix4x3,
+    Vectors,
+    Picks,
 }
 
 impl Kind {
     /// Every kind, in the order listings use.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Boolean,
         Self::Integer,
         Self::Real,
@@ -114,6 +127,8 @@ impl Kind {
         Self::Matrix3,
         Self::Matrix4,
         Self::Matrix4x3,
+        Self::Vectors,
+        Self::Picks,
     ];
 
     /// The word used in messages and in the command line's JSON.
@@ -130,6 +145,8 @@ impl Kind {
             Self::Matrix3 => "matrix3",
             Self::Matrix4 => "matrix4",
             Self::Matrix4x3 => "matrix4x3",
+            Self::Vectors => "vectors",
+            Self::Picks => "picks",
         }
     }
 }
@@ -243,8 +260,19 @@ macro_rules! values_from {
         })*
     };
 }
-values_from!(bool => Boolean, i32 => Integer, f64 => Real, DVec2 => Vector2, DVec3 => Vector3, DVec4 => Vector4,
-    DMat2 => Matrix2, DMat3 => Matrix3, DMat4 => Matrix4, DAffine3 => Matrix4x3);
+values_from!(bool => Boolean, i32 => Integer, f64 => Real, DVec2 => Vector2, DVec3 => Vector3);
+
+macro_rules! shared_values_from {
+    ($($from:ty => $variant:ident),* $(,)?) => {
+        $(impl From<$from> for Value {
+            fn from(value: $from) -> Self {
+                Self::$variant(Arc::new(value))
+            }
+        })*
+    };
+}
+shared_values_from!(DVec4 => Vector4, DMat2 => Matrix2, DMat3 => Matrix3, DMat4 => Matrix4, DAffine3 => Matrix4x3,
+    VectorList => Vectors);
 
 impl From<&str> for Value {
     fn from(text: &str) -> Self {

@@ -187,7 +187,7 @@ fn expected(text: &str) -> Value {
         let mut n: Vec<f64> = rows.split(' ').map(|n| n.parse().expect("a number")).collect();
         n.extend([0.0, 0.0, 0.0, 1.0]);
         let columns: [f64; 16] = n.try_into().expect("twelve numbers");
-        return Value::Matrix4x3(glam::DAffine3::from_mat4(
+        return Value::from(glam::DAffine3::from_mat4(
             DMat4::from_cols_array(&columns).transpose(),
         ));
     }

@@ -146,9 +146,9 @@ fn promoted(kind: Kind, inputs: &Inputs<'_>) -> Kind {
 
 fn multiply(product: &mut Value, inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
     let next: Value = match (inputs.get(1), &*product) {
-        (Value::Matrix2(new), Value::Matrix2(old)) => (*new * *old).into(),
-        (Value::Matrix3(new), Value::Matrix3(old)) => (*new * *old).into(),
-        (Value::Matrix4(new), Value::Matrix4(old)) => (*new * *old).into(),
+        (Value::Matrix2(new), Value::Matrix2(old)) => (**new * **old).into(),
+        (Value::Matrix3(new), Value::Matrix3(old)) => (**new * **old).into(),
+        (Value::Matrix4(new), Value::Matrix4(old)) => (**new * **old).into(),
         _ => {
             return Err(Fault::Kind {
                 input: 1,

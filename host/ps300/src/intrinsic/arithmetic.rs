@@ -199,10 +199,10 @@ fn add(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
         (Value::Integer(a), Value::Integer(b)) => whole(a.checked_add(*b))?,
         (Value::Vector2(a), Value::Vector2(b)) => (*a + *b).into(),
         (Value::Vector3(a), Value::Vector3(b)) => (*a + *b).into(),
-        (Value::Vector4(a), Value::Vector4(b)) => (*a + *b).into(),
-        (Value::Matrix2(a), Value::Matrix2(b)) => (*a + *b).into(),
-        (Value::Matrix3(a), Value::Matrix3(b)) => (*a + *b).into(),
-        (Value::Matrix4(a), Value::Matrix4(b)) => (*a + *b).into(),
+        (Value::Vector4(a), Value::Vector4(b)) => (**a + **b).into(),
+        (Value::Matrix2(a), Value::Matrix2(b)) => (**a + **b).into(),
+        (Value::Matrix3(a), Value::Matrix3(b)) => (**a + **b).into(),
+        (Value::Matrix4(a), Value::Matrix4(b)) => (**a + **b).into(),
         _ => (number(a)? + number_like(a, b)?).into(),
     };
     outputs.send(1, sum);
@@ -215,10 +215,10 @@ fn sub(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
         (Value::Integer(a), Value::Integer(b)) => whole(a.checked_sub(*b))?,
         (Value::Vector2(a), Value::Vector2(b)) => (*a - *b).into(),
         (Value::Vector3(a), Value::Vector3(b)) => (*a - *b).into(),
-        (Value::Vector4(a), Value::Vector4(b)) => (*a - *b).into(),
-        (Value::Matrix2(a), Value::Matrix2(b)) => (*a - *b).into(),
-        (Value::Matrix3(a), Value::Matrix3(b)) => (*a - *b).into(),
-        (Value::Matrix4(a), Value::Matrix4(b)) => (*a - *b).into(),
+        (Value::Vector4(a), Value::Vector4(b)) => (**a - **b).into(),
+        (Value::Matrix2(a), Value::Matrix2(b)) => (**a - **b).into(),
+        (Value::Matrix3(a), Value::Matrix3(b)) => (**a - **b).into(),
+        (Value::Matrix4(a), Value::Matrix4(b)) => (**a - **b).into(),
         _ => (number(a)? - number_like(a, b)?).into(),
     };
     outputs.send(1, difference);
@@ -243,12 +243,12 @@ fn mul(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
     let (a, b) = (inputs.get(1), inputs.get(2));
     let product = match (a, b) {
         (Value::Integer(a), Value::Integer(b)) => whole(a.checked_mul(*b))?,
-        (Value::Matrix2(a), Value::Matrix2(b)) => (*a * *b).into(),
-        (Value::Matrix3(a), Value::Matrix3(b)) => (*a * *b).into(),
-        (Value::Matrix4(a), Value::Matrix4(b)) => (*a * *b).into(),
-        (Value::Matrix2(m), Value::Vector2(v)) | (Value::Vector2(v), Value::Matrix2(m)) => (*m * *v).into(),
-        (Value::Matrix3(m), Value::Vector3(v)) | (Value::Vector3(v), Value::Matrix3(m)) => (*m * *v).into(),
-        (Value::Matrix4(m), Value::Vector4(v)) | (Value::Vector4(v), Value::Matrix4(m)) => (*m * *v).into(),
+        (Value::Matrix2(a), Value::Matrix2(b)) => (**a * **b).into(),
+        (Value::Matrix3(a), Value::Matrix3(b)) => (**a * **b).into(),
+        (Value::Matrix4(a), Value::Matrix4(b)) => (**a * **b).into(),
+        (Value::Matrix2(m), Value::Vector2(v)) | (Value::Vector2(v), Value::Matrix2(m)) => (**m * *v).into(),
+        (Value::Matrix3(m), Value::Vector3(v)) | (Value::Vector3(v), Value::Matrix3(m)) => (**m * *v).into(),
+        (Value::Matrix4(m), Value::Vector4(v)) | (Value::Vector4(v), Value::Matrix4(m)) => (**m * **v).into(),
         _ => match (a.as_number(), b.as_number()) {
             (Some(a), Some(b)) => (a * b).into(),
             (Some(a), None) => scaled(b, a).ok_or(Fault::Kind {
@@ -303,7 +303,7 @@ fn div(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
         _ => match a {
             Value::Vector2(v) => (*v / by).into(),
             Value::Vector3(v) => (*v / by).into(),
-            Value::Vector4(v) => (*v / by).into(),
+            Value::Vector4(v) => (**v / by).into(),
             _ => (inputs.number(1)? / by).into(),
         },
     };

@@ -102,7 +102,7 @@ fn matrix3(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> 
 
 fn matrix4(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
     let row = |number| match inputs.get(number) {
-        Value::Vector4(v) => Ok(*v),
+        Value::Vector4(v) => Ok(**v),
         _ => Err(Fault::Kind {
             input: number,
             expected: Kind::Vector4.into(),

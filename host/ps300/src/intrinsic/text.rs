@@ -117,9 +117,11 @@ fn write_value(text: &mut String, value: &Value) {
         Value::Matrix3(m) => components(text, 'M', &m.transpose().to_cols_array()),
         Value::Matrix4(m) => components(text, 'M', &m.transpose().to_cols_array()),
         Value::Matrix4x3(m) => {
-            let rows = glam::DMat4::from(*m).transpose().to_cols_array();
+            let rows = glam::DMat4::from(**m).transpose().to_cols_array();
             components(text, 'M', &rows[..12])
         }
+        Value::Vectors(list) => write!(text, "{} vectors", list.vectors.len()),
+        Value::Picks(picks) => write!(text, "{} picks", picks.len()),
     };
 }
 

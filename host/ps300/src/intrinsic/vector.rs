@@ -117,7 +117,7 @@ fn parts(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
     let (components, count) = match inputs.get(1) {
         Value::Vector2(v) => (DVec4::new(v.x, v.y, 0.0, 0.0), 2),
         Value::Vector3(v) => (v.extend(0.0), 3),
-        Value::Vector4(v) => (*v, 4),
+        Value::Vector4(v) => (**v, 4),
         _ => {
             return Err(Fault::Kind {
                 input: 1,

@@ -119,17 +119,17 @@ impl Effect {
                     intensity: row(2),
                 };
             }
-            (_, Value::Matrix2(m)) => *self = Self::Characters(*m),
-            (_, Value::Matrix3(m)) => *self = Self::model(*m),
+            (_, Value::Matrix2(m)) => *self = Self::Characters(**m),
+            (_, Value::Matrix3(m)) => *self = Self::model(**m),
             (_, Value::Matrix4(m)) => {
                 let view = matches!(
                     operation,
                     Operation::FieldOfView { .. } | Operation::Window { .. }
                 );
-                *self = if view { Self::View(*m) } else { Self::matrix4(*m) };
+                *self = if view { Self::View(**m) } else { Self::matrix4(**m) };
             }
-            (Self::View(view), Value::Matrix4x3(m)) => *view = (*m).into(),
-            (Self::Model(model), Value::Matrix4x3(m)) => *model = (*m).into(),
+            (Self::View(view), Value::Matrix4x3(m)) => *view = (**m).into(),
+            (Self::Model(model), Value::Matrix4x3(m)) => *model = (**m).into(),
             (Self::Model(model), Value::Vector2(v)) => *model = DMat4::from_translation(v.extend(0.0)),
             (Self::Model(model), Value::Vector3(v)) => {
                 let scales = matches!(operation, Operation::Scale(_));

@@ -46,7 +46,21 @@ fn json_of(value: &Value) -> serde_json::Value {
             let row = |i: usize| m.matrix3.row(i).extend(m.translation[i]).to_array();
             json!([0, 1, 2].map(row))
         }
+        Value::Vectors(list) => {
+            let vector = |v: &ps300::language::Vector| json!({"at": v.at.to_array(), "draw": v.draw});
+            list.vectors.iter().map(vector).collect()
+        }
+        Value::Picks(picks) => picks.iter().map(json_of_pick).collect(),
     }
+}
+
+fn json_of_pick(pick: &ps300::pick::Pick) -> serde_json::Value {
+    let identifiers: Vec<_> = pick
+        .identifiers
+        .iter()
+        .map(ps300::language::Name::as_str)
+        .collect();
+    json!({"index": pick.index, "identifiers": identifiers, "node": pick.node.as_str(), "at": pick.at.to_array()})
 }
 
 #[cfg(test)]

@@ -21,6 +21,8 @@ pub fn literal(value: &Value) -> String {
         Value::Matrix3(m) => format!("M3D({})", rows(&m.transpose().to_cols_array(), 3)),
         Value::Matrix4(m) => format!("M4D({})", rows(&m.transpose().to_cols_array(), 4)),
         Value::Matrix4x3(m) => format!("M4X3({})", rows(&affine_rows(m), 4)),
+        Value::Vectors(list) => format!("VL({} vectors)", list.vectors.len()),
+        Value::Picks(picks) => format!("{} picks", picks.len()),
     }
 }
 
