@@ -6,6 +6,7 @@ use glam::{DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
 
 use super::function::{Fault, Function, Inputs, Outputs, domain};
 use super::numbers::integer;
+use super::recalled::{Recalled, restore};
 use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kind, Kinds, Value};
 
@@ -102,6 +103,39 @@ impl Function for Accumulate {
         self.running = Some(running);
         result
     }
+
+    fn remembered(&self) -> Vec<Value> {
+        match &self.running {
+            None => Vec::new(),
+            Some(Running::Product(product)) => vec![product.clone()],
+            Some(Running::Sum { kind, sum, sent }) => {
+                // The sum of integers has a fraction; a third value says that integers are sent.
+                let mut state = vec![exact(*kind, *sum), exact(*kind, *sent)];
+                state.extend((*kind == Kind::Integer).then_some(Value::Boolean(true)));
+                state
+            }
+        }
+    }
+
+    fn recall(&mut self, state: &[Value]) -> bool {
+        restore(&mut self.running, None, state, |state| running(state).map(Some))
+    }
+}
+
+fn running(state: &mut Recalled<'_>) -> Option<Running> {
+    let first = state.value()?;
+    let Some(sum) = components(first).filter(|_| first.kind() != Kind::Integer) else {
+        return match first.kind() {
+            Kind::Matrix2 | Kind::Matrix3 | Kind::Matrix4 => Some(Running::Product(first.clone())),
+            _ => None,
+        };
+    };
+    let sent = components(state.value().filter(|sent| sent.kind() == first.kind())?)?;
+    let kind = match (first.kind(), state.left()) {
+        (Kind::Real, 1) if state.boolean()? => Kind::Integer,
+        (kind, _) => kind,
+    };
+    Some(Running::Sum { kind, sum, sent })
 }
 
 fn start(inputs: &Inputs<'_>) -> Result<Running, Fault> {
@@ -250,6 +284,16 @@ fn assemble(kind: Kind, [x, y, z, w]: [f64; 4]) -> Result<Value, Fault> {
     })
 }
 
+/// The same, where a sum of integers keeps its fraction.
+fn exact(kind: Kind, [x, y, z, w]: [f64; 4]) -> Value {
+    match kind {
+        Kind::Vector2 => DVec2::new(x, y).into(),
+        Kind::Vector3 => DVec3::new(x, y, z).into(),
+        Kind::Vector4 => DVec4::new(x, y, z, w).into(),
+        _ => x.into(),
+    }
+}
+
 /// The running factor of DSCALE.
 #[derive(Default)]
 struct ScaleSum {
@@ -278,5 +322,13 @@ impl Function for ScaleSum {
         outputs.send(1, DMat3::from_diagonal(DVec3::splat(factor)));
         outputs.send(2, factor);
         Ok(())
+    }
+
+    fn remembered(&self) -> Vec<Value> {
+        self.factor.map(Value::Real).into_iter().collect()
+    }
+
+    fn recall(&mut self, state: &[Value]) -> bool {
+        restore(&mut self.factor, None, state, |state| state.real().map(Some))
     }
 }

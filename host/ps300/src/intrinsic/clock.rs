@@ -4,8 +4,9 @@
 //! session plays back alike.
 
 use super::function::{Fault, Function, Inputs, Now, Outputs, domain};
+use super::recalled::restore;
 use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
-use crate::value::Kinds;
+use crate::value::{Kinds, Value};
 
 const INPUTS: &[InputSpec] = &[
     InputSpec::constant(Kinds::INTEGER, Preset::Integer(1)),
@@ -118,5 +119,31 @@ impl Function for Clock {
             return domain("network time jumped; the clock counted intervals without sending them");
         }
         Ok(())
+    }
+
+    fn remembered(&self) -> Vec<Value> {
+        let Some(seen) = self.seen else {
+            return Vec::new();
+        };
+        let mut state = vec![Value::Real(seen as f64), Value::Real(self.elapsed as f64)];
+        state.extend(self.count.map(Value::Integer));
+        state
+    }
+
+    fn recall(&mut self, state: &[Value]) -> bool {
+        let new = Self::new(self.units);
+        let units = self.units;
+        restore(self, new, state, |state| {
+            Some(Self {
+                units,
+                seen: Some(state.count()?),
+                elapsed: state.count()?,
+                count: if state.left() > 0 {
+                    Some(state.integer()?)
+                } else {
+                    None
+                },
+            })
+        })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::function::{Fault, Function, Inputs, Outputs};
 use super::numbers::integer;
+use super::recalled::restore;
 use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kinds, Value};
 
@@ -77,6 +78,14 @@ impl Function for Delta {
         }
         Ok(())
     }
+
+    fn remembered(&self) -> Vec<Value> {
+        self.passed.map(Value::Real).into_iter().collect()
+    }
+
+    fn recall(&mut self, state: &[Value]) -> bool {
+        restore(&mut self.passed, None, state, |state| state.real().map(Some))
+    }
 }
 
 #[derive(Default)]
@@ -92,5 +101,13 @@ impl Function for Edge {
             outputs.send(1, level);
         }
         Ok(())
+    }
+
+    fn remembered(&self) -> Vec<Value> {
+        self.before.map(Value::Boolean).into_iter().collect()
+    }
+
+    fn recall(&mut self, state: &[Value]) -> bool {
+        restore(&mut self.before, None, state, |state| state.boolean().map(Some))
     }
 }

@@ -22,6 +22,14 @@ pub trait Function: Send {
     fn advance(&mut self, _now: Now, _inputs: &Inputs<'_>, _outputs: &mut Outputs<'_>) -> Result<(), Fault> {
         Ok(())
     }
+
+    /// Everything its future depends on besides its inputs, in values that have literals wherever the
+    /// messages it keeps have. Empty: as new.
+    fn remembered(&self) -> Vec<Value>;
+
+    /// Takes up what [`Function::remembered`] of an instance of the same type gave. False where that does
+    /// not fit; then nothing has changed. Setting constants may restart a function, so set them before.
+    fn recall(&mut self, state: &[Value]) -> bool;
 }
 
 /// Network time, as the host gives it at each tick.

@@ -15,6 +15,7 @@ mod function;
 mod logic;
 mod matrix;
 mod numbers;
+mod recalled;
 mod rotate;
 mod route;
 mod spec;

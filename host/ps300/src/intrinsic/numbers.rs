@@ -3,8 +3,9 @@
 use std::collections::VecDeque;
 
 use super::function::{Fault, Function, Inputs, Outputs, domain};
+use super::recalled::{Recalled, restore};
 use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
-use crate::value::Kinds;
+use crate::value::{Kinds, Value};
 
 const NUMBER: &[InputSpec] = &[InputSpec::active(Kinds::NUMBER)];
 const INTEGER_OUT: &[OutputSpec] = &[OutputSpec::of(Kinds::INTEGER)];
@@ -137,5 +138,18 @@ impl Function for Average {
         let share = 1.0 / self.last.len() as f64;
         outputs.send(1, self.last.iter().map(|x| x * share).sum::<f64>());
         Ok(())
+    }
+
+    fn remembered(&self) -> Vec<Value> {
+        self.last.iter().map(|&x| Value::Real(x)).collect()
+    }
+
+    fn recall(&mut self, state: &[Value]) -> bool {
+        let last = |state: &mut Recalled<'_>| {
+            state
+                .reals()
+                .filter(|last: &VecDeque<f64>| last.len() <= AVERAGED_MAX)
+        };
+        restore(&mut self.last, VecDeque::new(), state, last)
     }
 }

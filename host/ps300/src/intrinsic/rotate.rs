@@ -5,8 +5,9 @@
 use glam::DMat3;
 
 use super::function::{Fault, Function, Inputs, Outputs, domain};
+use super::recalled::restore;
 use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
-use crate::value::{Kind, Kinds};
+use crate::value::{Kind, Kinds, Value};
 
 const MATRIX3: OutputSpec = OutputSpec::of(Kinds::of(&[Kind::Matrix3]));
 
@@ -82,5 +83,13 @@ impl Function for Turning {
         outputs.send(1, (self.about)(degrees.to_radians()));
         outputs.send(2, degrees);
         Ok(())
+    }
+
+    fn remembered(&self) -> Vec<Value> {
+        self.degrees.map(Value::Real).into_iter().collect()
+    }
+
+    fn recall(&mut self, state: &[Value]) -> bool {
+        restore(&mut self.degrees, None, state, |state| state.real().map(Some))
     }
 }

@@ -192,6 +192,11 @@ impl OutputSpec {
 }
 
 impl Spec {
+    /// Whether firings depend on earlier ones or on network time: whether an instance has a state.
+    pub fn remembers(&self) -> bool {
+        matches!(self.does, Does::Stateful(_) | Does::Clock(_))
+    }
+
     /// The inputs of an instance of `size` (0 for unsized types), in order from 1.
     pub fn inputs_of(&self, size: u8) -> impl Iterator<Item = InputSpec> {
         self.inputs

@@ -12,6 +12,7 @@ mod load;
 mod panel;
 mod program;
 mod removal;
+mod state;
 mod tree;
 mod view;
 mod wires;

@@ -120,6 +120,22 @@ impl Instance {
         }
     }
 
+    /// See [`Function::remembered`]; functions of the inputs alone remember nothing.
+    pub(crate) fn remembered(&self) -> Vec<Value> {
+        match &self.behaviour {
+            Behaviour::Pure(_) => Vec::new(),
+            Behaviour::Stateful(function) => function.remembered(),
+        }
+    }
+
+    /// See [`Function::recall`].
+    pub(super) fn recall(&mut self, state: &[Value]) -> bool {
+        match &mut self.behaviour {
+            Behaviour::Pure(_) => state.is_empty(),
+            Behaviour::Stateful(function) => function.recall(state),
+        }
+    }
+
     pub(super) fn constant_set(&mut self, number: u8) {
         if let Behaviour::Stateful(function) = &mut self.behaviour {
             function.constant_set(number);

@@ -281,6 +281,12 @@ impl Network {
         true
     }
 
+    /// See [`crate::intrinsic::Function::recall`]. False also where there is no such instance.
+    pub(crate) fn recall(&mut self, id: InstanceId, state: &[Value]) -> bool {
+        self.instance_mut(id)
+            .is_some_and(|instance| instance.recall(state))
+    }
+
     /// What a constant or variable holds at its first input.
     pub(crate) fn held(&self, id: InstanceId) -> Option<&Value> {
         self.instance(id)?.inputs.first()?.front()

@@ -1,0 +1,77 @@
+//! Reading back what a function remembered.
+//!
+//! Apart from the functions because a state comes from text that anybody may have written: each value is
+//! checked for its kind, and nothing may be missing or left over.
+
+use crate::value::Value;
+
+/// A state, read value by value.
+pub(super) struct Recalled<'a> {
+    rest: &'a [Value],
+}
+
+/// Makes `place` what `read` finds in `state`, or `new` where that is empty. False, and no change, where
+/// it does not fit.
+pub(super) fn restore<T>(
+    place: &mut T,
+    new: T,
+    state: &[Value],
+    read: impl FnOnce(&mut Recalled<'_>) -> Option<T>,
+) -> bool {
+    let mut recalled = Recalled { rest: state };
+    let found = if state.is_empty() {
+        Some(new)
+    } else {
+        read(&mut recalled).filter(|_| recalled.rest.is_empty())
+    };
+    found.map(|found| *place = found).is_some()
+}
+
+impl<'a> Recalled<'a> {
+    /// The next value, of any kind a message can have.
+    pub(super) fn value(&mut self) -> Option<&'a Value> {
+        let (first, rest) = self.rest.split_first()?;
+        self.rest = rest;
+        Some(first).filter(|value| value.is_finite())
+    }
+
+    /// How many values are left.
+    pub(super) fn left(&self) -> usize {
+        self.rest.len()
+    }
+
+    pub(super) fn real(&mut self) -> Option<f64> {
+        match self.value()? {
+            Value::Real(x) => Some(*x),
+            _ => None,
+        }
+    }
+
+    pub(super) fn integer(&mut self) -> Option<i32> {
+        match self.value()? {
+            Value::Integer(n) => Some(*n),
+            _ => None,
+        }
+    }
+
+    pub(super) fn boolean(&mut self) -> Option<bool> {
+        match self.value()? {
+            Value::Boolean(b) => Some(*b),
+            _ => None,
+        }
+    }
+
+    /// A count that may be too large for an integer, kept as a real.
+    pub(super) fn count(&mut self) -> Option<u64> {
+        /// Reals are exact up to here.
+        const EXACT_MAX: f64 = 9_007_199_254_740_992.0;
+        let count = self.real()?;
+        let whole = count.fract() == 0.0 && (0.0..=EXACT_MAX).contains(&count);
+        whole.then_some(count as u64)
+    }
+
+    /// All that is left, as reals.
+    pub(super) fn reals<C: FromIterator<f64>>(&mut self) -> Option<C> {
+        std::iter::from_fn(|| (self.left() > 0).then(|| self.real())).collect()
+    }
+}
