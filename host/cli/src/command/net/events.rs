@@ -1,10 +1,15 @@
-//! What happens to a network that runs, and when: lines `at SECS COMMAND;` and dials turned.
+//! What happens to a network that runs, and when: lines `at SECS COMMAND;`, and what devices send.
+//!
+//! A device has no input, so no command of the language can press a key. `EMIT value FROM name<n>;` does, in files of
+//! events only; `--dial` and `--key` are short for the most frequent.
 
-use ps300::language::{self, Command, Definition, Name};
+use ps300::Value;
+use ps300::language::{self, Command, Definition, Name, Payload};
 use rig::document::source::Source;
 use rig::document::{FileError, Findings};
 
 use super::diagnostics;
+use super::run::Watch;
 
 /// One thing that happens.
 #[derive(Clone, Debug)]
@@ -18,12 +23,16 @@ pub(super) struct Event {
 /// What happens.
 #[derive(Clone, Debug)]
 pub(super) enum Doing {
-    /// A dial is turned.
-    Dial {
+    /// A device sends.
+    Emit {
+        /// Of the device; it need not be one of those every machine has.
+        name: Name,
         /// From 1.
-        number: u8,
-        /// Full turns.
-        turns: f64,
+        output: u8,
+        /// What leaves it.
+        value: Value,
+        /// For what is said about it.
+        place: Option<FileError>,
     },
     /// A command is given, with its place for what is said about it. Boxed: commands can be large.
     Command(Box<(Command, FileError)>),
@@ -57,9 +66,30 @@ pub(super) fn dial(text: &str) -> Result<Event, String> {
     }
     Ok(Event {
         secs: crate::number::secs(secs)?,
-        doing: Doing::Dial {
-            number,
-            turns: crate::number::finite(turns)?,
+        doing: Doing::Emit {
+            name: Name::new("DIALS"),
+            output: number,
+            value: crate::number::finite(turns)?.into(),
+            place: None,
+        },
+    })
+}
+
+/// `N@SECS`, one key pressed: 1 to 12, with shift 13 to 24, with control 25 to 36.
+pub(super) fn key(text: &str) -> Result<Event, String> {
+    let form = || "expected N@SECS, as in 3@1.5".to_owned();
+    let (number, secs) = text.split_once('@').ok_or_else(form)?;
+    let number: i32 = number.trim().parse().map_err(|_| form())?;
+    if !(1..=36).contains(&number) {
+        return Err(format!("there are keys 1 to 36, not {number}"));
+    }
+    Ok(Event {
+        secs: crate::number::secs(secs)?,
+        doing: Doing::Emit {
+            name: Name::new("FKEYS"),
+            output: 1,
+            value: number.into(),
+            place: None,
         },
     })
 }
@@ -91,6 +121,13 @@ pub(super) fn read(source: &Source, found: &mut Findings) -> Vec<Event> {
             }
         }
         let begins = (number, column_of(line, rest));
+        if is_emission(rest) {
+            events.extend(emission(source, begins, rest, found).map(|doing| Event {
+                secs: latest_secs,
+                doing,
+            }));
+            continue;
+        }
         let (commands, remarks) = language::parse(rest);
         if commands.is_empty() && remarks.is_empty() {
             found.error(source.error_at(begins, "expected a command after the time"));
@@ -105,6 +142,44 @@ pub(super) fn read(source: &Source, found: &mut Findings) -> Vec<Event> {
         }));
     }
     events
+}
+
+/// Whether it is no command but `EMIT …`.
+fn is_emission(text: &str) -> bool {
+    let word = text.split_whitespace().next().unwrap_or_default();
+    word.eq_ignore_ascii_case("EMIT")
+}
+
+/// `EMIT value FROM name<n>;`. The value is read as that of a SEND, a word as long, so that columns stay right.
+fn emission(source: &Source, begins: (u32, u32), text: &str, found: &mut Findings) -> Option<Doing> {
+    let form = source
+        .error_at(begins, "expected `EMIT value FROM name<n>;`")
+        .with_hint("for example: at 0.5 EMIT FIX(3) FROM FKEYS<1>;");
+    let from = text.to_ascii_uppercase().rfind(" FROM ");
+    let Some((value, from)) = from.map(|at| (&text[4..at], text[at + 6..].trim())) else {
+        found.error(form);
+        return None;
+    };
+    let Ok(Watch { name, output }) = Watch::parse(from.trim_end_matches(';').trim_end()) else {
+        found.error(form);
+        return None;
+    };
+    let (commands, remarks) = language::parse(&format!("SEND{value} TO <1>{name};"));
+    let sent = commands.into_iter().next().map(|located| located.what);
+    diagnostics::note(source, begins, remarks, found);
+    let Some(Command::Send {
+        payload: Payload::Value(value),
+        ..
+    }) = sent
+    else {
+        return None;
+    };
+    Some(Doing::Emit {
+        name,
+        output,
+        value,
+        place: Some(source.error_at(begins, "")),
+    })
 }
 
 /// The time of a line, its column, and what follows it.
@@ -174,6 +249,30 @@ mod tests {
         }
         let event = dial("3:-0.25@1.5").expect("well formed");
         assert_eq!(event.secs, 1.5);
-        assert!(matches!(event.doing, Doing::Dial { number: 3, turns } if turns == -0.25));
+        let turned = Value::from(-0.25);
+        assert!(matches!(event.doing, Doing::Emit { output: 3, value, .. } if value == turned));
+    }
+
+    #[test]
+    fn keys_are_numbers() {
+        for bad in ["", "1", "0@1", "37@1", "1.5@1", "1@-1"] {
+            assert!(key(bad).is_err(), "{bad}");
+        }
+        let event = key("36@0.5").expect("well formed");
+        let pressed = Value::from(36);
+        assert!(matches!(event.doing, Doing::Emit { output: 1, value, .. } if value == pressed));
+    }
+
+    #[test]
+    fn devices_send_in_events() {
+        for (text, place) in [
+            ("at 1 EMIT FIX(3)", (1, 6)),
+            ("at 1 EMIT FIX(3) FROM FKEYS;", (1, 6)),
+            ("at 1 EMIT FIX( FROM FKEYS<1>;", (1, 16)),
+        ] {
+            assert_eq!(places(text), (0, vec![place]), "{text}");
+        }
+        let text = "at 1 EMIT FIX(3) FROM FKEYS<1>;\nat 1 emit ' from ' from KEYBOARD<1>;";
+        assert_eq!(places(text), (2, vec![]));
     }
 }

@@ -24,7 +24,8 @@ Examples:
   dialrig net run clock.ps300 --until 2 --watch 'tick<1>' --watch 'DLABEL1<1>'
   dialrig net run slew.ps300 --events turns.txt --watch 'slew<1>' > slew.jsonl
 
-An events file has one command a line, times ascending: at 0.5 SEND 0.25 TO <1>turn;";
+An events file has one command a line, times ascending: at 0.5 SEND 0.25 TO <1>turn;
+What a device sends is written at 0.5 EMIT FIX(3) FROM FKEYS<1>;";
 
 /// Frames a second of network time: what the original's screen showed, near enough.
 const FRAMES_PER_SEC: f64 = 60.0;
@@ -51,6 +52,9 @@ pub(super) struct Args {
     /// Turns dial N by TURNS at SECS, as one message
     #[arg(long, value_name = "N:TURNS@SECS", value_parser = events::dial)]
     dial: Vec<Event>,
+    /// Presses function key N at SECS; 13 to 24 are keys with shift, 25 to 36 with control
+    #[arg(long, value_name = "N@SECS", value_parser = events::key)]
+    key: Vec<Event>,
 }
 
 /// `NAME<N>`.
@@ -61,7 +65,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    fn parse(text: &str) -> Result<Self, String> {
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
         let form = || "expected NAME<N>, as in 'turn<1>' (quoted, for the shell)".to_owned();
         let (name, rest) = text.trim().split_once('<').ok_or_else(form)?;
         let number = rest.strip_suffix('>').ok_or_else(form)?;
@@ -83,14 +87,14 @@ impl Watch {
 pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let mut found = Findings::default();
     let machine = program::load_watched(&args.files, &args.watch, console, &mut found);
-    let mut events = args.dial.clone();
+    let mut events = [args.dial.as_slice(), &args.key].concat();
     if let Some(path) = &args.events {
         match input::read(path, console) {
             Ok(source) => events.extend(events::read(&source, &mut found)),
             Err(errors) => errors.0.into_iter().for_each(|error| found.error(error)),
         }
     }
-    // Stable: at one time dials come first, then commands as written.
+    // Stable: at one time dials come first, then keys, then events as written.
     events.sort_by(|a, b| a.secs.total_cmp(&b.secs));
     diagnostics::settle(found, console)?;
     args.watch
@@ -190,9 +194,18 @@ impl Session<'_> {
             self.tick(event.secs);
         }
         match &event.doing {
-            Doing::Dial { number, turns } => {
-                self.machine.emit("DIALS", *number, *turns);
-                self.tick(event.secs);
+            Doing::Emit {
+                name,
+                output,
+                value,
+                place,
+            } => {
+                if self.machine.emit(name.as_str(), *output, value.clone()) {
+                    self.tick(event.secs);
+                } else if let Some(mut warning) = place.clone() {
+                    warning.message = format!("there is no output {name}<{output}>");
+                    self.console.warn(&[warning]);
+                }
             }
             Doing::Command(given) => {
                 let (command, place) = &**given;

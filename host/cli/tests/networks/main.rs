@@ -1,0 +1,7 @@
+//! The shipped networks, run as a reader of their pages runs them.
+
+mod dials;
+mod firing;
+mod pages;
+mod record;
+mod session;
