@@ -61,12 +61,7 @@ fn primitives_are_two_polylines_in_colour() {
         draw,
         intensity: None,
     };
-    let connected = |vectors| {
-        Node::VectorList(VectorList {
-            class: VectorClass::Connected,
-            vectors,
-        })
-    };
+    let connected = |vectors| Node::VectorList(VectorList::new(VectorClass::Connected, vectors));
     assert_eq!(
         commands,
         [

@@ -140,10 +140,7 @@ fn vector_list() -> impl Strategy<Value = VectorList> {
                 draw: class.draws(index).unwrap_or(draw),
                 intensity,
             });
-        VectorList {
-            class,
-            vectors: vectors.collect(),
-        }
+        VectorList::new(class, vectors.collect())
     })
 }
 

@@ -94,6 +94,38 @@ pub enum Command {
     },
     /// `INITIALIZE …;`
     Initialize(Initialization),
+    /// `SETUP STATE v,v,… IN f;` gives a function instance what it remembered. This project's own: the PS 300
+    /// could not write a running network down.
+    SetupState {
+        /// A function instance.
+        name: Name,
+        /// What the function said it remembers, in its order; none is as new.
+        values: Vec<Value>,
+    },
+    /// `PATTERN list WITH p;` dashes a data node.
+    PatternWith {
+        /// A vector list or curve.
+        list: Name,
+        /// A [`super::Pattern`] node.
+        pattern: Name,
+    },
+    /// `BEGIN` … : commands up to END take effect in one update.
+    BeginGroup,
+    /// `END;`
+    EndGroup,
+    /// `OPTIMIZE STRUCTURE;`: on the PS 300, structures made up to END OPTIMIZE were stored compactly.
+    Optimize,
+    /// `END OPTIMIZE;`
+    EndOptimize,
+    /// `RESERVE_WORKING_STORAGE n;`: memory for rendering.
+    ReserveWorkingStorage {
+        /// As asked for.
+        bytes: u32,
+    },
+    /// `COMMAND STATUS;` reports on groups and structures that are open.
+    CommandStatus,
+    /// `!RESET;` ends whatever is open.
+    Reset,
 }
 
 /// The right-hand side of `name := …;`.
@@ -146,6 +178,8 @@ pub enum Payload {
     Value(Value),
     /// `VALUE(v)`: what the variable holds when the command is executed.
     Variable(Name),
+    /// `VL(name)`: the vectors of that list as they are when the command is executed.
+    VectorsOf(Name),
 }
 
 /// `name<output>`.

@@ -24,7 +24,9 @@ pub use command::{
 pub use diagnostic::{Diagnostic, Located, Position, Severity};
 pub use name::Name;
 pub use node::{
-    Axis, Boundaries, Characters, Member, Node, Operation, Range, Vector, VectorClass, VectorList,
+    Attributes, Axis, BSpline, Boundaries, Characters, Comparison, Dimension, Font, Glyph, GlyphVector,
+    Illumination, Label, Labels, Member, Node, Operation, Pattern, Polygon, PolygonVertex, Polynomial, Range,
+    Surface, SurfaceColor, Vector, VectorClass, VectorList,
 };
 pub use parser::parse;
 pub use print::{literal, print};

@@ -34,6 +34,7 @@ impl Machine {
                 let value = match payload {
                     Payload::Value(value) => value.clone(),
                     Payload::Variable(name) => self.variable(name)?,
+                    Payload::VectorsOf(name) => self.vectors_of(name)?,
                 };
                 self.deliver(&to.name, to.input, &value)
             }
@@ -55,6 +56,18 @@ impl Machine {
                 self.initialize(*what);
                 Ok(())
             }
+            Command::PatternWith { list, pattern } => {
+                self.thing(list)?;
+                self.thing(pattern).map(|_| ())
+            }
+            Command::SetupState { name, .. } => self.thing(name).map(|_| ()),
+            Command::BeginGroup
+            | Command::EndGroup
+            | Command::Optimize
+            | Command::EndOptimize
+            | Command::ReserveWorkingStorage { .. }
+            | Command::CommandStatus
+            | Command::Reset => Ok(()),
         }
     }
 

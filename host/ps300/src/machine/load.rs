@@ -46,6 +46,14 @@ fn node_references(node: &Node, at: Position, into: &mut Vec<(Position, Name)>) 
             applied_to: Some(name),
             ..
         } => into.push((at, name.clone())),
+        Node::Polygons(polygons) => {
+            into.extend(
+                polygons
+                    .iter()
+                    .filter_map(|polygon| polygon.attributes.clone())
+                    .map(|name| (at, name)),
+            );
+        }
         Node::Structure(members) => {
             for member in members {
                 node_references(&member.node, at, into);

@@ -5,6 +5,7 @@ use super::{ExecuteError, Machine};
 use crate::language::{Name, Operation};
 use crate::names::{NameId, Thing};
 use crate::structure::{Body, BuildError, Change, NodeId, reaches};
+use crate::value::Value;
 
 impl Machine {
     fn node_named(&self, name: &Name) -> Result<NodeId, ExecuteError> {
@@ -19,6 +20,17 @@ impl Machine {
                 })
             }
         }
+    }
+
+    /// What `VL(name)` carries.
+    pub(super) fn vectors_of(&self, name: &Name) -> Result<Value, ExecuteError> {
+        let id = self.node_named(name)?;
+        let list = self.structure.vectors(id).ok_or_else(|| ExecuteError::NotA {
+            name: name.clone(),
+            is: self.structure.what(id),
+            wanted: "a VECTOR_LIST",
+        })?;
+        Ok(list.clone().into())
     }
 
     fn members(&mut self, instance: &Name) -> Result<&mut Vec<NameId>, ExecuteError> {

@@ -77,6 +77,7 @@ impl Structure {
                 }
                 Body::Structure(nodes)
             }
+            node => Body::Unseen(node.clone()),
         };
         Ok(self.add(name.clone(), body))
     }
@@ -93,6 +94,7 @@ impl Structure {
             },
             Some(Body::Vectors(list)) => Node::VectorList(list.written.clone()),
             Some(Body::Characters(characters)) => Node::Characters(characters.written.clone()),
+            Some(Body::Unseen(node)) => node.clone(),
             Some(Body::Structure(members)) => Node::Structure(
                 members
                     .iter()

@@ -83,7 +83,31 @@ impl Effect {
             Operation::IfConditionalBit { bit, on } => Self::If { bit, on },
             Operation::SetDepthClipping(_)
             | Operation::SetPicking(_)
-            | Operation::SetPickingIdentifier(_) => Self::Unseen,
+            | Operation::SetPickingIdentifier(_)
+            | Operation::Eye { .. }
+            | Operation::SetColorBlending { .. }
+            | Operation::SetContrast(_)
+            | Operation::SetPickingLocation { .. }
+            | Operation::SetLevelOfDetail(_)
+            | Operation::IncrementLevelOfDetail
+            | Operation::DecrementLevelOfDetail
+            | Operation::IfLevelOfDetail { .. }
+            | Operation::SetRate { .. }
+            | Operation::SetRateExternal
+            | Operation::IfPhase(_)
+            | Operation::SetDisplay { .. }
+            | Operation::SetPlotter(_)
+            | Operation::SetLineTexture { .. }
+            | Operation::CharacterScale(_)
+            | Operation::CharacterRotate { .. }
+            | Operation::CharacterFont(_)
+            | Operation::StandardFont
+            | Operation::TextSize(_)
+            | Operation::XformMatrix
+            | Operation::XformVectorList
+            | Operation::SurfaceRendering
+            | Operation::SolidRendering
+            | Operation::SectioningPlane => Self::Unseen,
         })
     }
 
@@ -182,7 +206,7 @@ pub(super) fn accepts(operation: &Operation) -> &'static [Kinds] {
         Operation::SetDepthClipping(_) | Operation::SetPicking(_) | Operation::SetConditionalBit { .. } => {
             &[Kinds::BOOLEAN]
         }
-        Operation::SetPickingIdentifier(_) | Operation::IfConditionalBit { .. } => &[],
+        _ => &[],
     }
 }
 
@@ -203,8 +227,32 @@ pub(super) fn what(operation: &Operation) -> &'static str {
         Operation::SetColor { .. } => "SET COLOR",
         Operation::SetIntensity { .. } => "SET INTENSITY",
         Operation::SetDepthClipping(_) => "SET DEPTH_CLIPPING",
-        Operation::SetPicking(_) | Operation::SetPickingIdentifier(_) => "SET PICKING",
+        Operation::SetPicking(_)
+        | Operation::SetPickingIdentifier(_)
+        | Operation::SetPickingLocation { .. } => "SET PICKING",
         Operation::SetConditionalBit { .. } => "SET CONDITIONAL_BIT",
         Operation::IfConditionalBit { .. } => "IF CONDITIONAL_BIT",
+        Operation::Eye { .. } => "EYE",
+        Operation::SetColorBlending { .. } => "SET COLOR BLENDING",
+        Operation::SetContrast(_) => "SET CONTRAST",
+        Operation::SetLevelOfDetail(_) => "SET LEVEL_OF_DETAIL",
+        Operation::IncrementLevelOfDetail => "INCREMENT LEVEL_OF_DETAIL",
+        Operation::DecrementLevelOfDetail => "DECREMENT LEVEL_OF_DETAIL",
+        Operation::IfLevelOfDetail { .. } => "IF LEVEL_OF_DETAIL",
+        Operation::SetRate { .. } | Operation::SetRateExternal => "SET RATE",
+        Operation::IfPhase(_) => "IF PHASE",
+        Operation::SetDisplay { .. } => "SET DISPLAY",
+        Operation::SetPlotter(_) => "SET PLOTTER",
+        Operation::SetLineTexture { .. } => "SET LINE_TEXTURE",
+        Operation::CharacterScale(_) => "CHARACTER SCALE",
+        Operation::CharacterRotate { .. } => "CHARACTER ROTATE",
+        Operation::CharacterFont(_) => "CHARACTER FONT",
+        Operation::StandardFont => "STANDARD FONT",
+        Operation::TextSize(_) => "TEXT SIZE",
+        Operation::XformMatrix => "XFORM MATRIX",
+        Operation::XformVectorList => "XFORM VECTOR_LIST",
+        Operation::SurfaceRendering => "SURFACE_RENDERING",
+        Operation::SolidRendering => "SOLID_RENDERING",
+        Operation::SectioningPlane => "SECTIONING_PLANE",
     }
 }

@@ -20,7 +20,7 @@ pub(crate) use walk::Walk;
 
 use effect::Effect;
 
-use crate::language::{Characters, Name, Operation, VectorList};
+use crate::language::{Characters, Name, Node, Operation, VectorList};
 use crate::names::NameId;
 
 /// A node of the display tree. Not reused while anything refers to it.
@@ -56,6 +56,8 @@ pub(crate) enum Body {
     },
     Vectors(Drawn<VectorList>),
     Characters(Drawn<Characters>),
+    /// Kept for the text of the program; pictures do not show it.
+    Unseen(Node),
 }
 
 /// Data as written, and as messages have left it.
@@ -150,6 +152,14 @@ impl Structure {
         }
     }
 
+    /// The vectors of a list, as messages have left them.
+    pub(crate) fn vectors(&self, id: NodeId) -> Option<&VectorList> {
+        match &self.slot(id)?.body {
+            Body::Vectors(list) => Some(list.now()),
+            _ => None,
+        }
+    }
+
     /// As reports and drawings name a node's kind.
     pub(crate) fn what(&self, id: NodeId) -> &'static str {
         match self.slot(id).map(|slot| &slot.body) {
@@ -159,7 +169,23 @@ impl Structure {
             Some(Body::Structure(_)) => "STRUCTURE",
             Some(Body::Vectors(_)) => "VECTOR_LIST",
             Some(Body::Characters(_)) => "CHARACTERS",
+            Some(Body::Unseen(node)) => what_unseen(node),
             None => "removed",
         }
+    }
+}
+
+fn what_unseen(node: &Node) -> &'static str {
+    match node {
+        Node::Labels(_) => "LABELS",
+        Node::BSpline(_) => "BSPLINE",
+        Node::Polynomial(_) => "POLYNOMIAL",
+        Node::Polygons(_) => "POLYGON",
+        Node::Attributes(_) => "ATTRIBUTES",
+        Node::Illumination(_) => "ILLUMINATION",
+        Node::Pattern(_) => "PATTERN",
+        Node::Font(_) => "FONT",
+        Node::Copy { .. } => "COPY",
+        _ => "NIL",
     }
 }

@@ -118,7 +118,7 @@ impl<'a> Walk<'a> {
 
     fn visit_body(&mut self, body: &'a Body, below: &'a [Change], state: &mut State) -> Go {
         match body {
-            Body::Nil => {}
+            Body::Nil | Body::Unseen(_) => {}
             Body::Instance(of) => {
                 for node in of.iter().filter_map(|&name| self.names.node(name)) {
                     self.visit(node, &mut state.clone());

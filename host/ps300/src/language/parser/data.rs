@@ -58,7 +58,7 @@ impl Parser<'_> {
             self.reports
                 .push(Diagnostic::warning(at, message).expecting(format!("N={}", vectors.len())));
         }
-        Ok(VectorList { class, vectors })
+        Ok(VectorList::new(class, vectors))
     }
 
     /// The vectors as an itemized list has them, and where the first mark is.

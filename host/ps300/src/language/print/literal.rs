@@ -4,9 +4,11 @@ use std::fmt::Write as _;
 
 use glam::{DAffine3, DVec3};
 
+use super::data::Listed;
 use crate::value::Value;
 
-/// The literal of `value`. A real that is not finite has none and gives text that does not read back.
+/// The literal of `value`. A real that is not finite and a list of picks have none and give text that does not
+/// read back.
 pub fn literal(value: &Value) -> String {
     match value {
         Value::Boolean(true) => "TRUE".to_owned(),
@@ -21,7 +23,7 @@ pub fn literal(value: &Value) -> String {
         Value::Matrix3(m) => format!("M3D({})", rows(&m.transpose().to_cols_array(), 3)),
         Value::Matrix4(m) => format!("M4D({})", rows(&m.transpose().to_cols_array(), 4)),
         Value::Matrix4x3(m) => format!("M4X3({})", rows(&affine_rows(m), 4)),
-        Value::Vectors(list) => format!("VL({} vectors)", list.vectors.len()),
+        Value::Vectors(list) => format!("VL({})", Listed(list, None)),
         Value::Picks(picks) => format!("{} picks", picks.len()),
     }
 }

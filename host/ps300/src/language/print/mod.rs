@@ -1,18 +1,22 @@
 //! Commands to canonical text: keywords whole and in capitals, names as given, one form for each thing.
 //!
 //! Reading the text gives the command back, provided names are valid ([`Name::is_valid`]), numbers
-//! finite, tables not empty where the grammar wants one, and vectors marked as their class says.
+//! finite, tables as long as the grammar wants them, and vectors marked as their class says. A list of picks
+//! has no literal.
 //! `tests/language_round_trip.rs` holds it to that.
 
+mod data;
 mod literal;
 mod node;
+mod operation;
 
 use std::fmt;
 
 use super::{Command, Definition, Disconnection, Initialization, Input, InputOf, Name, OutputOf, Payload};
+use crate::value::Value;
 
 pub use literal::literal;
-use node::{Indent, Joined, print_node};
+use node::{Indent, Joined, print_function, print_node};
 
 /// The canonical text of `command`, with its semicolon, without a line end after it.
 pub fn print(command: &Command) -> String {
@@ -53,18 +57,32 @@ impl fmt::Display for Command {
                 Initialization::Display => "INITIALIZE DISPLAY",
                 Initialization::Names => "INITIALIZE NAMES",
             })?,
+            Self::SetupState { name, values } => print_state(f, name, values)?,
+            Self::PatternWith { list, pattern } => write!(f, "PATTERN {list} WITH {pattern}")?,
+            Self::BeginGroup => f.write_str("BEGIN")?,
+            Self::EndGroup => f.write_str("END")?,
+            Self::Optimize => f.write_str("OPTIMIZE STRUCTURE")?,
+            Self::EndOptimize => f.write_str("END OPTIMIZE")?,
+            Self::ReserveWorkingStorage { bytes } => write!(f, "RESERVE_WORKING_STORAGE {bytes}")?,
+            Self::CommandStatus => f.write_str("COMMAND STATUS")?,
+            Self::Reset => f.write_str("!RESET")?,
         }
         f.write_str(";")
     }
 }
 
+fn print_state(f: &mut fmt::Formatter<'_>, name: &Name, values: &[Value]) -> fmt::Result {
+    f.write_str("SETUP STATE ")?;
+    for (index, value) in values.iter().enumerate() {
+        let end = if index + 1 == values.len() { " " } else { "," };
+        write!(f, "{}{end}", literal(value))?;
+    }
+    write!(f, "IN {name}")
+}
+
 fn print_definition(f: &mut fmt::Formatter<'_>, definition: &Definition) -> fmt::Result {
     match definition {
-        Definition::Function { function, size: None } => write!(f, "F:{function}"),
-        Definition::Function {
-            function,
-            size: Some(size),
-        } => write!(f, "F:{function}({size})"),
+        Definition::Function { function, size } => print_function(f, function, *size),
         Definition::Node(node) => print_node(f, node, Indent::default()),
     }
 }
@@ -82,6 +100,7 @@ impl fmt::Display for Payload {
         match self {
             Self::Value(value) => f.write_str(&literal(value)),
             Self::Variable(name) => write!(f, "VALUE({name})"),
+            Self::VectorsOf(name) => write!(f, "VL({name})"),
         }
     }
 }
