@@ -15,7 +15,7 @@ use crate::structure::NodeId;
 pub(crate) struct NameId(pub(crate) u32);
 
 /// What a name denotes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Thing {
     Instance(InstanceId),
     Node(NodeId),

@@ -18,6 +18,9 @@ impl Machine {
     }
 
     fn take_effect(&mut self, command: &Command) -> Done {
+        if !matches!(command, Command::Send { .. } | Command::Store { .. }) {
+            self.topology += 1;
+        }
         match command {
             Command::Define {
                 name,

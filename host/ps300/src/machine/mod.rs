@@ -4,12 +4,14 @@
 //! runs until it is quiet (or out of budget) before the next. Messages of the host (`emit`, `send`) wait
 //! for the next tick or command.
 
+mod activity;
 pub mod devices;
 mod dot;
 mod error;
 mod execute;
 mod load;
 mod panel;
+pub mod picture;
 mod program;
 mod removal;
 mod state;
@@ -17,6 +19,7 @@ mod tree;
 mod view;
 mod wires;
 
+pub use activity::{Activity, InputActivity, OutputActivity};
 pub use error::{DeclareError, ExecuteError};
 pub use panel::{LABEL_CHARACTERS, Panel};
 pub use view::{ConnectionView, InputView, InstanceView, OutputView};
@@ -47,6 +50,8 @@ pub struct Machine {
     /// In the order of DISPLAY.
     displayed: Vec<NameId>,
     ticks: u64,
+    /// Counts commands that may have changed what there is and how it is joined.
+    topology: u64,
 }
 
 impl Default for Machine {
@@ -144,6 +149,7 @@ impl Machine {
             readouts,
             displayed: Vec::new(),
             ticks: 0,
+            topology: 0,
         }
     }
 
@@ -229,6 +235,7 @@ impl Machine {
         }
         let id = self.network.add_sink(name.clone(), inputs);
         self.names.fix(&name, Thing::Sink(id));
+        self.topology += 1;
         Ok(id)
     }
 
@@ -251,6 +258,12 @@ impl Machine {
     /// Counts changes of the display tree: a picture drawn at the same number is still right.
     pub fn picture_revision(&self) -> u64 {
         self.structure.revision
+    }
+
+    /// Counts changes of what there is and how it is joined: a [`picture::Picture`] made at the same number is
+    /// still right.
+    pub fn topology_revision(&self) -> u64 {
+        self.topology
     }
 
     /// All that is displayed.
@@ -298,6 +311,16 @@ impl Machine {
         let from = self.outlet(name, output);
         if let Some(from) = from {
             self.network.watch(from, on);
+        }
+        from.is_some()
+    }
+
+    /// Withholds what an output would send, and counts it, until it is thawed; the rest of the network goes
+    /// on. False if there is no such output.
+    pub fn freeze(&mut self, name: &str, output: u8, on: bool) -> bool {
+        let from = self.outlet(name, output);
+        if let Some(from) = from {
+            self.network.freeze(from, on);
         }
         from.is_some()
     }

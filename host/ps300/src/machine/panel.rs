@@ -49,6 +49,11 @@ impl Readouts {
         Self { shows }
     }
 
+    /// Whether a sink is one of these rather than the host's.
+    pub(super) fn has(&self, sink: SinkId) -> bool {
+        (sink.0 as usize) < self.shows.len()
+    }
+
     /// Lets the panel show a message that reached one of the built-in sinks.
     pub(super) fn show(&self, panel: &mut Panel, sink: SinkId, value: &Value) {
         let Some(&(shows, number)) = self.shows.get(sink.0 as usize) else {

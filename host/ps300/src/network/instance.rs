@@ -225,6 +225,16 @@ impl Instance {
         self.output(number).and_then(|port| port.last.as_ref())
     }
 
+    /// The inputs, from <1>.
+    pub(crate) fn input_ports(&self) -> &[InputPort] {
+        &self.inputs
+    }
+
+    /// The outputs, from <1>.
+    pub(crate) fn output_ports(&self) -> &[OutputPort] {
+        &self.outputs
+    }
+
     pub(crate) fn input_views<'a>(&'a self) -> Vec<InputView<'a>> {
         let view = |port: &'a InputPort| {
             let InputPort { kinds, constant, .. } = *port;

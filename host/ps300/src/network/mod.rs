@@ -310,6 +310,13 @@ impl Network {
         }
     }
 
+    /// Withholds what an output would send, or lets it send again.
+    pub(crate) fn freeze(&mut self, from: Outlet, on: bool) {
+        if let Ok(output) = self.output_mut(from) {
+            output.frozen = on;
+        }
+    }
+
     fn output_mut(&mut self, from: Outlet) -> Result<&mut OutputPort, ConnectError> {
         let Some(instance) = self.slots.get_mut(from.from.0 as usize).and_then(Option::as_mut) else {
             let name = Name::new("(removed)");

@@ -78,7 +78,7 @@ impl InputPort {
     }
 
     /// How many messages wait; a constant does not wait.
-    pub(super) fn waiting(&self) -> usize {
+    pub(crate) fn waiting(&self) -> usize {
         if self.constant {
             0
         } else {
@@ -133,7 +133,13 @@ pub(crate) struct OutputPort {
     /// In the order of CONNECT, which is the order of delivery.
     pub(super) to: Vec<Inlet>,
     pub(super) watched: bool,
-    pub(super) last: Option<Value>,
+    pub(crate) last: Option<Value>,
+    /// Messages sent so far.
+    pub(crate) sent: u64,
+    /// Whether what it would send is withheld.
+    pub(crate) frozen: bool,
+    /// Messages withheld so far.
+    pub(crate) withheld: u64,
 }
 
 impl OutputPort {
@@ -143,6 +149,9 @@ impl OutputPort {
             to: Vec::new(),
             watched: false,
             last: None,
+            sent: 0,
+            frozen: false,
+            withheld: 0,
         }
     }
 }

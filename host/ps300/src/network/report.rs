@@ -1,5 +1,6 @@
 //! What went wrong while the network ran, gathered so that a loop cannot flood anybody.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::language::{Input, Name};
@@ -116,11 +117,19 @@ const DIFFERENT_MAX: usize = 256;
 pub(crate) struct Reports {
     listed: Vec<Report>,
     unlisted: u32,
+    /// How often each name was reported, drained or not.
+    counts: BTreeMap<Name, u64>,
 }
 
 impl Reports {
     /// `what` is asked only when the report is new.
     pub(crate) fn note(&mut self, name: &Name, what: impl FnOnce() -> String, cause: Cause) {
+        match self.counts.get_mut(name) {
+            Some(count) => *count += 1,
+            None => {
+                self.counts.insert(name.clone(), 1);
+            }
+        }
         let same = |report: &&mut Report| report.cause == cause && report.name == *name;
         if let Some(report) = self.listed.iter_mut().rev().find(same) {
             report.count = report.count.saturating_add(1);
@@ -134,6 +143,11 @@ impl Reports {
         } else {
             self.unlisted = self.unlisted.saturating_add(1);
         }
+    }
+
+    /// How often something of this name was reported since the machine began.
+    pub(crate) fn counted(&self, name: &Name) -> u64 {
+        self.counts.get(name).copied().unwrap_or(0)
     }
 
     pub(crate) fn drain(&mut self) -> Vec<Report> {

@@ -191,6 +191,11 @@ impl Network {
         else {
             return;
         };
+        if output.frozen {
+            output.withheld += 1;
+            return;
+        }
+        output.sent += 1;
         copy(value, &mut output.last);
         let watched = output.watched;
         let to = std::mem::take(&mut output.to);

@@ -34,6 +34,10 @@ impl Network {
         self.sinks.get(id.0 as usize)
     }
 
+    pub(crate) fn sink_count(&self) -> usize {
+        self.sinks.len()
+    }
+
     pub(super) fn sink_input_mut(&mut self, id: SinkId, input: u8) -> Option<&mut SinkInput> {
         let sink = self.sinks.get_mut(id.0 as usize)?;
         sink.inputs.get_mut(usize::from(input).checked_sub(1)?)
