@@ -9,7 +9,10 @@ use device_profiles::Profiles;
 use firmware_sim::hands::Turn;
 use rig::document::Show;
 use rig::journal::{Digest, Ending, Recorder, RecordingPorts, Script};
-use rig::{Command, EditCommand, Pace, PuppetCommand, Rig, RigOptions, Snapshot, Touch, TransportCommand};
+use rig::{
+    Command, EditCommand, NetworkEdit, Pace, PuppetCommand, Rig, RigOptions, Snapshot, Touch,
+    TransportCommand,
+};
 use std::sync::Arc;
 use ui::render::{frame, stage::Look};
 
@@ -65,7 +68,9 @@ fn asked(step: u64) -> Vec<Command> {
     };
     match step {
         260 => vec![Command::Edit(EditCommand::StoreKey { secs: 0.75 })],
-        270 => vec![Command::Network("SEND TRUE TO <1>root_page;".to_owned())],
+        270 => vec![Command::Network(NetworkEdit::Commands(
+            "SEND TRUE TO <1>root_page;".to_owned(),
+        ))],
         280 => vec![Command::Undo, Command::Puppet(PuppetCommand::Arm)],
         300 => vec![Command::Transport(TransportCommand::Play)],
         330 => vec![cable(TABLET, false)],

@@ -9,8 +9,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Command {
-    /// Text in the network's command language, executed at once and kept in the document.
-    Network(String),
+    /// A change of the function network while it runs. Journals of before the patch panel have text alone here.
+    Network(#[serde(deserialize_with = "network_edit")] NetworkEdit),
+    /// Whether snapshots carry the network ([`crate::Snapshot::network`]); nobody looks at first.
+    LookAtNetwork(bool),
     /// A hand on a simulated device: it answers with bytes, as the real one would.
     Touch {
         /// The device's name as in [`crate::DeviceView::name`].
@@ -34,6 +36,44 @@ pub enum Command {
     Puppet(PuppetCommand),
     /// Writes the show to its folder.
     Save,
+}
+
+/// A change of the function network. Each that changes the show is one step of undo; what was not changed
+/// keeps its messages and sums.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NetworkEdit {
+    /// Text in the network's command language, executed at once and kept in the document.
+    Commands(String),
+    /// The whole program anew, as [`crate::NetworkLook::text`] shows it: what differs is changed.
+    Program(String),
+    /// As [`Command::Undo`].
+    Undo,
+    /// As [`Command::Redo`].
+    Redo,
+    /// Withholds what an output would send. Not part of the document.
+    Freeze {
+        /// Whose output.
+        name: String,
+        /// From 1.
+        output: u8,
+        /// False lets it send again.
+        on: bool,
+    },
+}
+
+/// An edit, or the text alone that older journals have.
+fn network_edit<'de, D: serde::Deserializer<'de>>(from: D) -> Result<NetworkEdit, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Edit(NetworkEdit),
+        Text(String),
+    }
+    Ok(match Written::deserialize(from)? {
+        Written::Edit(edit) => edit,
+        Written::Text(text) => NetworkEdit::Commands(text),
+    })
 }
 
 /// Hands on a simulated control, in the device's own numbering.
@@ -244,4 +284,22 @@ pub enum PuppetCommand {
     Stop,
     /// Leaves the faulted state; torque stays off.
     Reset,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn old_journals_have_network_commands_as_text() {
+        let text = NetworkEdit::Commands("SEND 1 TO <1>a;".into());
+        for (json, edit) in [
+            (r#"{"network":"SEND 1 TO <1>a;"}"#, text.clone()),
+            (r#"{"network":{"commands":"SEND 1 TO <1>a;"}}"#, text),
+            (r#"{"network":"undo"}"#, NetworkEdit::Undo),
+        ] {
+            let read: Command = serde_json::from_str(json).expect("a command");
+            assert_eq!(read, Command::Network(edit), "{json}");
+        }
+    }
 }

@@ -15,6 +15,7 @@ pub mod journal;
 pub mod listen;
 pub mod live;
 pub mod maintenance;
+mod network_look;
 mod notes;
 pub mod parameters;
 mod ports;
@@ -29,8 +30,8 @@ mod view;
 mod wiring;
 
 pub use command::{
-    Command, EditCommand, KineticsMode, PoseCommand, PuppetCommand, Side, Touch, TransportCommand,
-    ViewCommand,
+    Command, EditCommand, KineticsMode, NetworkEdit, PoseCommand, PuppetCommand, Side, Touch,
+    TransportCommand, ViewCommand,
 };
 pub use device_profiles::Profiles;
 pub use inputs::{InputError, InputSpec};
@@ -40,6 +41,6 @@ pub use puppet::{Pace, PuppetSpec};
 pub use rig::{Rig, RigError, RigOptions};
 pub use snapshot::{
     DeskKeyView, DeskView, DeviceHealth, DeviceView, DialView, FigureView, JointView, KeyView, KineticsView,
-    Note, NoteLevel, PuppetState, PuppetView, Snapshot, TransportView, ViewState,
+    NetworkLook, Note, NoteLevel, PuppetState, PuppetView, Snapshot, TransportView, ViewState,
 };
 pub use system::{SystemPorts, WithBench, real_time};

@@ -7,7 +7,10 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use motion::clip::Clip;
 use motion::figure::{Figure, FigurePose, Placed};
+use ps300::Diagnostic;
 use ps300::display::{DisplayList, Stroke};
+use ps300::machine::Activity;
+use ps300::machine::picture::Picture;
 
 use crate::journal::Digest;
 
@@ -50,6 +53,26 @@ pub struct Snapshot {
     pub redo: Option<String>,
     /// The latest remarks, oldest first, a bounded number.
     pub notes: Vec<Note>,
+    /// The function network, while somebody looks at it ([`crate::Command::LookAtNetwork`]).
+    pub network: Option<NetworkLook>,
+}
+
+/// The function network as a patch panel shows it. Parts that did not change are the same `Arc` as before.
+#[derive(Clone, Debug)]
+pub struct NetworkLook {
+    /// Boxes and wires.
+    pub picture: Arc<Picture>,
+    /// What moves through them, in the picture's order.
+    pub activity: Arc<Activity>,
+    /// The program: the show's network files and the commands given since, each under a comment that names
+    /// its file where there are several. [`crate::NetworkEdit::Program`] takes it back, edited.
+    pub text: Arc<str>,
+    /// Whether there is a step to take back.
+    pub can_undo: bool,
+    /// Whether there is a step to make again.
+    pub can_redo: bool,
+    /// What was wrong with the last edit, with lines and columns of its text; empty when nothing was.
+    pub diagnostics: Arc<[Diagnostic]>,
 }
 
 /// The posed figure.
@@ -152,6 +175,22 @@ impl Snapshot {
         for note in &self.notes {
             digest.real(note.at_secs);
             digest.text(&note.text);
+        }
+        if let Some(network) = &self.network {
+            network.digest(digest);
+        }
+    }
+}
+
+impl NetworkLook {
+    fn digest(&self, digest: &mut Digest) {
+        digest.text(&self.text);
+        digest.bytes(&self.picture.revision.to_le_bytes());
+        for output in &self.activity.outputs {
+            digest.bytes(&output.sent.to_le_bytes());
+        }
+        for diagnostic in &*self.diagnostics {
+            digest.text(&diagnostic.to_string());
         }
     }
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use glam::DMat4;
 use motion::figure::Figure;
+use ps300::Diagnostic;
 use ps300::display::{DisplayList, Stroke};
 use ps300::machine::{Machine, Panel};
 use ps300::value::{Kinds, Value};
@@ -75,8 +76,21 @@ impl Wiring {
     }
 
     /// Executes commands given while the rig runs. Refused as a whole only if nothing of it could be read.
-    pub(crate) fn execute(&mut self, text: &str) -> Vec<String> {
-        self.machine.load(text).iter().map(ToString::to_string).collect()
+    pub(crate) fn execute(&mut self, text: &str) -> Vec<Diagnostic> {
+        self.machine.load(text)
+    }
+
+    /// Withholds what an output would send, or lets it send again.
+    pub(crate) fn freeze(&mut self, name: &str, output: u8, on: bool) -> Result<(), String> {
+        if self.machine.freeze(name, output, on) {
+            Ok(())
+        } else {
+            Err(format!("there is no output {name}<{output}> to freeze"))
+        }
+    }
+
+    pub(crate) fn machine(&self) -> &Machine {
+        &self.machine
     }
 
     /// A message from a device instance; the network runs until it is quiet before the next one.

@@ -2,7 +2,7 @@
 
 use firmware_sim::Fault;
 use firmware_sim::hands::Turn;
-use rig::{Command, PuppetCommand, TransportCommand};
+use rig::{Command, NetworkEdit, PuppetCommand, TransportCommand};
 
 use super::words::{Flaw, Parsed, Words};
 use crate::hands::{Movement, Tool};
@@ -98,7 +98,10 @@ impl Doing {
             "mend" => Self::Mend {
                 bus: words.text("a bus")?,
             },
-            "network" => Self::Ask(Command::Network(words.rest("network commands")?.to_owned())),
+            "network" => {
+                let text = words.rest("network commands")?.to_owned();
+                Self::Ask(Command::Network(NetworkEdit::Commands(text)))
+            }
             "undo" => Self::Ask(Command::Undo),
             "redo" => Self::Ask(Command::Redo),
             "stall" => Self::Stall {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::Machine;
 use crate::language::{Input, Name};
 use crate::names::{Owner, Thing};
-use crate::network::{Inlet, InstanceId, Instance, Numbered, Outlet, Role, SinkId};
+use crate::network::{Inlet, Instance, InstanceId, Numbered, Outlet, Role, SinkId};
 use crate::structure::NodeId;
 use crate::value::Kinds;
 
@@ -124,7 +124,10 @@ impl Machine {
         };
         for (thing, shown) in self.all_boxes(&joined) {
             let always = matches!(shown.role, BoxRole::Function | BoxRole::Variable);
-            let housed = shown.structure.as_ref().is_some_and(|name| holders.contains(name));
+            let housed = shown
+                .structure
+                .as_ref()
+                .is_some_and(|name| holders.contains(name));
             if always || housed || joined.things.contains(&thing) {
                 picture.add(thing, shown);
             } else {
@@ -188,20 +191,26 @@ impl Machine {
 
     fn instance_box(&self, id: InstanceId, instance: &Instance) -> BoxPicture {
         let name = self.spelt(Thing::Instance(id), &instance.name);
-        let is_label = self.names.find(&name).is_some_and(|entry| {
-            self.names.entry(entry).owner == Owner::Structure
-        });
+        let is_label = self
+            .names
+            .find(&name)
+            .is_some_and(|entry| self.names.entry(entry).owner == Owner::Structure);
         let numbered = (1_u16..).map(Input::Number);
-        let inputs = numbered.clone().zip(instance.input_ports()).map(|(input, port)| PortPicture {
-            input,
-            kinds: port.kinds,
-            constant: port.constant,
-        });
-        let outputs = numbered.zip(instance.output_ports()).map(|(input, port)| PortPicture {
-            input,
-            kinds: port.kinds,
-            constant: false,
-        });
+        let inputs = numbered
+            .clone()
+            .zip(instance.input_ports())
+            .map(|(input, port)| PortPicture {
+                input,
+                kinds: port.kinds,
+                constant: port.constant,
+            });
+        let outputs = numbered
+            .zip(instance.output_ports())
+            .map(|(input, port)| PortPicture {
+                input,
+                kinds: port.kinds,
+                constant: false,
+            });
         BoxPicture {
             role: match instance.role {
                 Role::Function => BoxRole::Function,
@@ -219,7 +228,9 @@ impl Machine {
     fn node_box(&self, id: NodeId, name: Name, is_label: bool, joined: &Joined) -> BoxPicture {
         let named = Input::NAMED.iter().map(|&(_, input)| input);
         let fed = joined.numbers.get(&id).into_iter().flatten().copied();
-        let mut inputs: Vec<Input> = named.filter(|&input| self.structure.accepts(id, input).is_some()).collect();
+        let mut inputs: Vec<Input> = named
+            .filter(|&input| self.structure.accepts(id, input).is_some())
+            .collect();
         if inputs.is_empty() {
             let numbered = (1..=NODE_INPUTS_MAX).map(Input::Number);
             inputs.extend(numbered.take_while(|&input| self.structure.accepts(id, input).is_some()));
@@ -249,7 +260,11 @@ impl Machine {
             constant: false,
         });
         Some(BoxPicture {
-            role: if is_device { BoxRole::Device } else { BoxRole::Parameter },
+            role: if is_device {
+                BoxRole::Device
+            } else {
+                BoxRole::Parameter
+            },
             what: if is_device { "device" } else { "parameter" }.into(),
             inputs: inputs.collect(),
             ..BoxPicture::bare(sink.name.clone())
@@ -308,7 +323,10 @@ impl Picture {
 
 /// The structure a label lies in.
 fn around(label: &Name) -> Option<Name> {
-    label.as_str().rsplit_once('.').map(|(structure, _)| Name::new(structure))
+    label
+        .as_str()
+        .rsplit_once('.')
+        .map(|(structure, _)| Name::new(structure))
 }
 
 fn thing_at(inlet: Inlet) -> (Thing, Input) {

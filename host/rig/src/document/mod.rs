@@ -18,6 +18,7 @@ mod figure;
 pub mod folder;
 mod frames;
 pub mod limits;
+mod program;
 pub mod save;
 mod show;
 mod show_file;

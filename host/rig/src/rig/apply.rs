@@ -17,7 +17,11 @@ const AUTOSAVE_SECS: f64 = 20.0;
 impl Rig {
     pub(super) fn apply(&mut self, command: &Command) {
         let done = match command {
-            Command::Network(text) => self.patch(text),
+            Command::Network(edit) => self.edit_network(edit),
+            Command::LookAtNetwork(on) => {
+                self.look_at_network(*on);
+                Ok(())
+            }
             Command::Touch { device, touch } => self.touch(device, touch),
             Command::Pose(PoseCommand::FromClip) => {
                 self.show_clip();
@@ -83,17 +87,6 @@ impl Rig {
         }
     }
 
-    fn patch(&mut self, text: &str) -> Result<(), String> {
-        let remarks = self.wiring.execute(text);
-        let show = self.history.present().with_patch(text);
-        self.change(show, "network commands".into(), None);
-        if remarks.is_empty() {
-            Ok(())
-        } else {
-            Err(remarks.join("; "))
-        }
-    }
-
     fn touch(&mut self, device: &str, touch: &crate::command::Touch) -> Result<(), String> {
         let address = self.inputs.address(device).unwrap_or(device).to_owned();
         self.ports
@@ -123,7 +116,7 @@ impl Rig {
         Ok(())
     }
 
-    fn change(&mut self, show: document::Show, words: String, gesture: Option<String>) {
+    pub(super) fn change(&mut self, show: document::Show, words: String, gesture: Option<String>) {
         let now_secs = self.secs();
         if now_secs - self.edited_at_secs > GESTURE_PAUSE_SECS {
             self.history.end_gesture();
@@ -132,14 +125,14 @@ impl Rig {
         self.history.push(show, words, gesture);
     }
 
-    fn undo(&mut self) -> Result<(), String> {
+    pub(super) fn undo(&mut self) -> Result<(), String> {
         let before = Arc::clone(self.history.present());
         self.history.undo().ok_or("there is nothing to undo")?;
         self.changed_from(&before);
         Ok(())
     }
 
-    fn redo(&mut self) -> Result<(), String> {
+    pub(super) fn redo(&mut self) -> Result<(), String> {
         let before = Arc::clone(self.history.present());
         self.history.redo().ok_or("there is nothing to redo")?;
         self.changed_from(&before);
@@ -151,7 +144,7 @@ impl Rig {
         let show = Arc::clone(self.history.present());
         if show.patches != before.patches || show.networks != before.networks {
             let (wiring, remarks) = Wiring::load(&show);
-            self.wiring = wiring;
+            self.take_wiring(wiring);
             for remark in remarks {
                 self.note(NoteLevel::Warning, remark);
             }

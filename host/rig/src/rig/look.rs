@@ -13,6 +13,7 @@ const CURVE_SAMPLES: usize = 129;
 impl Rig {
     pub(super) fn look(&mut self) -> Snapshot {
         let now_secs = self.secs();
+        let network = self.network_look();
         let key_here = self.timeline.key_here();
         let show = self.history.present();
         let clip_doc = show.current_clip();
@@ -47,6 +48,7 @@ impl Rig {
             undo: self.history.undo_words().map(str::to_owned),
             redo: self.history.redo_words().map(str::to_owned),
             notes: self.notes.view(),
+            network,
         }
     }
 }

@@ -6,6 +6,7 @@
 
 mod apply;
 mod look;
+mod network;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,6 +21,7 @@ use crate::document::Show;
 use crate::history::History;
 use crate::inputs::{Change, InputError, InputSpec, Inputs};
 use crate::journal::Recorder;
+use crate::network_look::Looking;
 use crate::notes::Notes;
 use crate::ports::Ports;
 use crate::puppet::{PuppetSetupError, PuppetSpec, Seat};
@@ -68,6 +70,8 @@ pub struct Rig {
     /// The show as it is on disk.
     saved: Arc<Show>,
     wiring: Wiring,
+    /// What a patch panel was shown last, while there is one.
+    looking: Option<Looking>,
     stage: Option<Stage>,
     clip: Option<Arc<Clip>>,
     kinetics_view: crate::snapshot::KineticsView,
@@ -111,6 +115,7 @@ impl Rig {
             saved: Arc::clone(history.present()),
             history,
             wiring,
+            looking: None,
             stage: None,
             clip: None,
             kinetics_view: crate::snapshot::KineticsView::default(),
