@@ -7,7 +7,7 @@ use glam::{DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
 use super::function::{Fault, Function, Inputs, Outputs, domain};
 use super::numbers::integer;
 use super::recalled::{Recalled, restore};
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kind, Kinds, Value};
 
 const SUMMED: Kinds =
@@ -17,10 +17,7 @@ const SUMMED: Kinds =
 const BOUND: Kinds = Kinds::NUMBER.or(Kinds::VECTOR);
 
 pub(super) const TABLE: &[Spec] = &[
-    Spec {
-        name: "ACCUMULATE",
-        sizes: None,
-        inputs: &[
+Spec::stateful("ACCUMULATE", &[
             InputSpec::active(SUMMED),
             InputSpec::constant(
                 SUMMED,
@@ -30,39 +27,30 @@ pub(super) const TABLE: &[Spec] = &[
             InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
             InputSpec::constant(BOUND, Preset::Rule("unbounded")),
             InputSpec::constant(BOUND, Preset::Rule("unbounded")),
-        ],
-        outputs: &[OutputSpec::of(SUMMED)],
-        does: Does::Stateful(|_| Box::<Accumulate>::default()),
-        behaviour: "Running sum: <2> plus every <1> times the scale <4>, of the kind of <2> (without it, \
-                    of <1>, integers becoming real with the first real), the stored sum kept \
+        ], &[OutputSpec::of(SUMMED)], |_| Box::<Accumulate>::default())
+.says("Running sum: <2> plus every <1> times the scale <4>, of the kind of <2> (without it, \
+                    of <1>, integers becoming real with the first real or a scale with a fraction), the stored sum kept \
                     between the lower limit <6> and the upper limit <5>. A vector is limited component by component. \
                     Sent on when it has changed by at least <3> since it was last sent. Sending <2> starts anew \
                     from there without sending. Matrices are multiplied, new times old; scale and limits do not \
-                    apply to them.",
-        source: "D0 dial networks for inputs 1, 2, 4, 5, 6; input 3 recollected; matrices and defaults ours",
-        confidence: Confidence::Used,
-    },
-    Spec {
-        name: "DSCALE",
-        sizes: None,
-        inputs: &[
+                    apply to them.")
+.known(Confidence::Used, "D0 dial networks for inputs 1, 2, 4, 5, 6; input 3 recollected; matrices and defaults ours")
+.example("<2> V3D(0,0,0) | <4> 100 | <1> V3D(0.5,0,0) | <1> V3D(0,1,0) -> <1> V3D(50,0,0) | <1> V3D(50,100,0)"),
+Spec::stateful("DSCALE", &[
             InputSpec::active(Kinds::NUMBER),
             InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
             InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
             InputSpec::constant(Kinds::NUMBER, Preset::Rule("unbounded")),
             InputSpec::constant(Kinds::NUMBER, Preset::Rule("unbounded")),
-        ],
-        outputs: &[
+        ], &[
             OutputSpec::of(Kinds::of(&[Kind::Matrix3])),
             OutputSpec::of(Kinds::REAL),
-        ],
-        does: Does::Stateful(|_| Box::<ScaleSum>::default()),
-        behaviour: "Integrating uniform scale: the start <2> plus every <1> times the gain <3>, the stored sum kept \
+        ], |_| Box::<ScaleSum>::default())
+.says("Integrating uniform scale: the start <2> plus every <1> times the gain <3>, the stored sum kept \
                     between the lower limit <5> and the upper limit <4>. Output <1> the scaling matrix, <2> the \
-                    factor. Sending <2> starts anew from there without sending.",
-        source: "D0 dial networks for all five inputs and output 1; output 2 recollected; defaults ours",
-        confidence: Confidence::Used,
-    },
+                    factor. Sending <2> starts anew from there without sending.")
+.known(Confidence::Used, "D0 dial networks for all five inputs and output 1; output 2 recollected; defaults ours")
+.example("<3> 0.2 | <4> 1000 | <5> 0.01 | <1> 1 -> <1> M3D(1.2,0,0, 0,1.2,0, 0,0,1.2) | <2> 1.2"),
 ];
 
 /// The running sum of ACCUMULATE; nothing until the first firing after a (re)start.
@@ -168,9 +156,11 @@ fn start(inputs: &Inputs<'_>) -> Result<Running, Fault> {
     Ok(Running::Product(product))
 }
 
-/// A sum of integers that nothing made integral by <2> becomes real with the first real that enters it.
+/// A sum of integers that nothing made integral by <2> becomes real with the first real, or scale with a
+/// fraction, that enters it.
 fn promoted(kind: Kind, inputs: &Inputs<'_>) -> Kind {
-    let real = inputs.get(1).kind() == Kind::Real || (inputs.is_set(4) && inputs.get(4).kind() == Kind::Real);
+    let scale = inputs.get(4).as_number().unwrap_or(1.0);
+    let real = inputs.get(1).kind() == Kind::Real || scale.fract() != 0.0;
     if kind == Kind::Integer && real && inputs.find(2).is_none() {
         Kind::Real
     } else {

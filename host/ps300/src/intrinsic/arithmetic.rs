@@ -5,7 +5,7 @@
 use glam::{DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
 
 use super::function::{Fault, Inputs, Outputs, domain};
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kind, Kinds, Value};
 
 const LIKE: Kinds =
@@ -35,147 +35,67 @@ const DIV_FIRST: &[InputSpec] = &[
     InputSpec::active(Kinds::NUMBER),
 ];
 
-macro_rules! row {
-    ($name:literal, $inputs:expr, $outputs:expr, $does:expr, $behaviour:literal, $source:literal, $confidence:ident) => {
-        Spec {
-            name: $name,
-            sizes: None,
-            inputs: $inputs,
-            outputs: $outputs,
-            does: Does::Pure($does),
-            behaviour: $behaviour,
-            source: $source,
-            confidence: Confidence::$confidence,
-        }
-    };
-}
-
 pub(super) const TABLE: &[Spec] = &[
-    row!(
-        "ADD",
-        BOTH,
-        OUT,
-        add,
-        "<1> + <2>: numbers, or vectors or matrices of one kind.",
-        "recollected",
-        High
-    ),
-    row!(
-        "ADDC",
-        SECOND,
-        OUT,
-        add,
-        "As ADD, <2> constant.",
-        "D0 tablet networks, with integers",
-        Used
-    ),
-    row!(
-        "SUB",
-        BOTH,
-        OUT,
-        sub,
-        "<1> - <2>: numbers, or vectors or matrices of one kind.",
-        "recollected",
-        High
-    ),
-    row!(
-        "SUBC",
-        SECOND,
-        OUT,
-        sub,
-        "As SUB, <2> constant.",
-        "D0 tablet networks",
-        Used
-    ),
-    row!(
-        "CSUB",
-        FIRST,
-        OUT,
-        sub,
-        "As SUB, <1> constant.",
-        "recollected",
-        High
-    ),
-    row!(
-        "MUL",
-        BOTH,
-        OUT,
-        mul,
-        "<1> times <2>: numbers; a number and a vector or matrix; two matrices of one kind, <1> on the left; \
-         a matrix and a vector of as many components, which the matrix acts on as a column in either order.",
-        "recollected; the side of the vector ours",
-        Medium
-    ),
-    row!(
-        "MULC",
-        SECOND,
-        OUT,
-        mul,
-        "As MUL, <2> constant.",
-        "D0 dial networks, with reals",
-        Used
-    ),
-    row!(
-        "CMUL",
-        FIRST,
-        OUT,
-        mul,
-        "As MUL, <1> constant.",
-        "recollected",
-        High
-    ),
-    row!(
-        "DIV",
-        DIV_BOTH,
-        &[OutputSpec::of(SCALED)],
-        div,
-        "<1> divided by <2>: numbers, or a vector by a number. Two integers give an integer, cut off towards zero. \
-         Division by zero is reported and gives nothing.",
-        "recollected; integers ours",
-        Medium
-    ),
-    row!(
-        "DIVC",
-        DIV_SECOND,
-        &[OutputSpec::of(SCALED)],
-        div,
-        "As DIV, <2> constant.",
-        "recollected",
-        Medium
-    ),
-    row!(
-        "CDIV",
-        DIV_FIRST,
-        &[OutputSpec::of(SCALED)],
-        div,
-        "As DIV, <1> constant.",
-        "recollected",
-        Medium
-    ),
-    row!(
-        "MOD",
-        &[
+Spec::pure("ADD", BOTH, OUT, add)
+.says("<1> + <2>: numbers, or vectors or matrices of one kind.")
+.known(Confidence::High, "recollected")
+.example("<1> 1 | <1> 2 | <2> 10 | <2> 20 -> <1> 11 | <1> 22"),
+Spec::pure("ADDC", SECOND, OUT, add)
+.says("As ADD, <2> constant.")
+.known(Confidence::Used, "D0 tablet networks, with integers")
+.example("<2> 1 | <1> 1 | <2> 2 | <1> 1 -> <1> 2 | <1> 3"),
+Spec::pure("SUB", BOTH, OUT, sub)
+.says("<1> - <2>: numbers, or vectors or matrices of one kind.")
+.known(Confidence::High, "recollected")
+.example("<1> 5 | <2> 3 -> <1> 2"),
+Spec::pure("SUBC", SECOND, OUT, sub)
+.says("As SUB, <2> constant.")
+.known(Confidence::Used, "D0 tablet networks")
+.example("<2> FIX(1) | <1> FIX(5) -> <1> FIX(4)"),
+Spec::pure("CSUB", FIRST, OUT, sub)
+.says("As SUB, <1> constant.")
+.known(Confidence::High, "recollected")
+.example("<1> 10 | <2> 3 -> <1> 7"),
+Spec::pure("MUL", BOTH, OUT, mul)
+.says("<1> times <2>: numbers; a number and a vector or matrix; two matrices of one kind, <1> on the left; \
+         a matrix and a vector of as many components, which the matrix acts on as a column in either order.")
+.known(Confidence::Medium, "recollected; the side of the vector ours")
+.example("<1> 2 | <2> V3D(1,2,3) -> <1> V3D(2,4,6)"),
+Spec::pure("MULC", SECOND, OUT, mul)
+.says("As MUL, <2> constant.")
+.known(Confidence::Used, "D0 dial networks, with reals")
+.example("<2> 0.2 | <1> 10 -> <1> 2"),
+Spec::pure("CMUL", FIRST, OUT, mul)
+.says("As MUL, <1> constant.")
+.known(Confidence::High, "recollected")
+.example("<1> M3D(1,0,0, 0,0,-1, 0,1,0) | <2> V3D(0,1,0) -> <1> V3D(0,0,1)"),
+Spec::pure("DIV", DIV_BOTH, &[OutputSpec::of(SCALED)], div)
+.says("<1> divided by <2>: numbers, or a vector by a number. Two integers give an integer, cut off towards zero. \
+         Division by zero is reported and gives nothing.")
+.known(Confidence::Medium, "recollected; integers ours")
+.example("<1> FIX(7) | <2> FIX(-2) -> <1> FIX(-3)"),
+Spec::pure("DIVC", DIV_SECOND, &[OutputSpec::of(SCALED)], div)
+.says("As DIV, <2> constant.")
+.known(Confidence::Medium, "recollected")
+.example("<2> 4 | <1> 1 -> <1> 0.25"),
+Spec::pure("CDIV", DIV_FIRST, &[OutputSpec::of(SCALED)], div)
+.says("As DIV, <1> constant.")
+.known(Confidence::Medium, "recollected")
+.example("<1> 1 | <2> 4 -> <1> 0.25"),
+Spec::pure("MOD", &[
             InputSpec::active(Kinds::INTEGER),
             InputSpec::active(Kinds::INTEGER)
-        ],
-        &[OutputSpec::of(Kinds::INTEGER)],
-        modulo,
-        "The remainder of <1> divided by <2>, of the sign of <1>. Division by zero is reported and gives nothing.",
-        "recollected; sign ours",
-        Medium
-    ),
-    row!(
-        "MODC",
-        &[
+        ], &[OutputSpec::of(Kinds::INTEGER)], modulo)
+.says("The remainder of <1> divided by <2>, of the sign of <1>. Division by zero is reported and gives nothing.")
+.known(Confidence::Medium, "recollected; sign ours")
+.example("<1> FIX(-7) | <2> FIX(3) -> <1> FIX(-1)"),
+Spec::pure("MODC", &[
             InputSpec::active(Kinds::INTEGER),
             InputSpec::constant(Kinds::INTEGER, Preset::Required)
-        ],
-        &[OutputSpec::of(Kinds::INTEGER)],
-        modulo,
-        "As MOD, <2> constant.",
-        "recollected",
-        Medium
-    ),
+        ], &[OutputSpec::of(Kinds::INTEGER)], modulo)
+.says("As MOD, <2> constant.")
+.known(Confidence::Medium, "recollected")
+.example("<2> FIX(4) | <1> FIX(7) -> <1> FIX(3)"),
 ];
 
 const OVERFLOW: &str = "the result does not fit an integer of 32 bits";

@@ -1,7 +1,7 @@
 //! Comparisons. Trailing C: input 2 is constant; leading C: input 1.
 
 use super::function::{Fault, Inputs, Outputs};
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kinds, Value};
 
 const ANY_BOTH: &[InputSpec] = &[InputSpec::active(Kinds::ANY), InputSpec::active(Kinds::ANY)];
@@ -19,134 +19,73 @@ const FIRST: &[InputSpec] = &[
     InputSpec::active(Kinds::NUMBER),
 ];
 
-macro_rules! row {
-    ($name:literal, $inputs:expr, $does:expr, $behaviour:literal, $confidence:ident) => {
-        Spec {
-            name: $name,
-            sizes: None,
-            inputs: $inputs,
-            outputs: &[OutputSpec::of(Kinds::BOOLEAN)],
-            does: Does::Pure($does),
-            behaviour: $behaviour,
-            source: "recollected",
-            confidence: Confidence::$confidence,
-        }
-    };
-}
+const OUT: &[OutputSpec] = &[OutputSpec::of(Kinds::BOOLEAN)];
 
 pub(super) const TABLE: &[Spec] = &[
-    row!(
-        "EQ",
-        ANY_BOTH,
-        |i, o| equal(i, o, true),
-        "Whether <1> equals <2>; numbers, or any two of one kind.",
-        High
-    ),
-    row!(
-        "EQC",
-        ANY_SECOND,
-        |i, o| equal(i, o, true),
-        "As EQ, <2> constant.",
-        High
-    ),
-    row!(
-        "NE",
-        ANY_BOTH,
-        |i, o| equal(i, o, false),
-        "Whether <1> differs from <2>; numbers, or any two of one kind.",
-        High
-    ),
-    row!(
-        "NEC",
-        ANY_SECOND,
-        |i, o| equal(i, o, false),
-        "As NE, <2> constant.",
-        High
-    ),
-    row!(
-        "LT",
-        BOTH,
-        |i, o| order(i, o, |a, b| a < b),
-        "Whether <1> is less than <2>.",
-        High
-    ),
-    row!(
-        "LTC",
-        SECOND,
-        |i, o| order(i, o, |a, b| a < b),
-        "As LT, <2> constant.",
-        High
-    ),
-    row!(
-        "CLT",
-        FIRST,
-        |i, o| order(i, o, |a, b| a < b),
-        "As LT, <1> constant.",
-        Medium
-    ),
-    row!(
-        "LE",
-        BOTH,
-        |i, o| order(i, o, |a, b| a <= b),
-        "Whether <1> is at most <2>.",
-        High
-    ),
-    row!(
-        "LEC",
-        SECOND,
-        |i, o| order(i, o, |a, b| a <= b),
-        "As LE, <2> constant.",
-        High
-    ),
-    row!(
-        "CLE",
-        FIRST,
-        |i, o| order(i, o, |a, b| a <= b),
-        "As LE, <1> constant.",
-        Medium
-    ),
-    row!(
-        "GT",
-        BOTH,
-        |i, o| order(i, o, |a, b| a > b),
-        "Whether <1> is greater than <2>.",
-        High
-    ),
-    row!(
-        "GTC",
-        SECOND,
-        |i, o| order(i, o, |a, b| a > b),
-        "As GT, <2> constant.",
-        High
-    ),
-    row!(
-        "CGT",
-        FIRST,
-        |i, o| order(i, o, |a, b| a > b),
-        "As GT, <1> constant.",
-        Medium
-    ),
-    row!(
-        "GE",
-        BOTH,
-        |i, o| order(i, o, |a, b| a >= b),
-        "Whether <1> is at least <2>.",
-        High
-    ),
-    row!(
-        "GEC",
-        SECOND,
-        |i, o| order(i, o, |a, b| a >= b),
-        "As GE, <2> constant.",
-        High
-    ),
-    row!(
-        "CGE",
-        FIRST,
-        |i, o| order(i, o, |a, b| a >= b),
-        "As GE, <1> constant.",
-        Medium
-    ),
+    Spec::pure("EQ", ANY_BOTH, OUT, |i, o| equal(i, o, true))
+        .says("Whether <1> equals <2>; numbers, or any two of one kind.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 1 | <2> FIX(1) -> <1> TRUE"),
+    Spec::pure("EQC", ANY_SECOND, OUT, |i, o| equal(i, o, true))
+        .says("As EQ, <2> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<2> V2D(1,2) | <1> V2D(1,2) -> <1> TRUE"),
+    Spec::pure("NE", ANY_BOTH, OUT, |i, o| equal(i, o, false))
+        .says("Whether <1> differs from <2>; numbers, or any two of one kind.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 1 | <2> 1 -> <1> FALSE"),
+    Spec::pure("NEC", ANY_SECOND, OUT, |i, o| equal(i, o, false))
+        .says("As NE, <2> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<2> TRUE | <1> FALSE -> <1> TRUE"),
+    Spec::pure("LT", BOTH, OUT, |i, o| order(i, o, |a, b| a < b))
+        .says("Whether <1> is less than <2>.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 1 | <2> 2 -> <1> TRUE"),
+    Spec::pure("LTC", SECOND, OUT, |i, o| order(i, o, |a, b| a < b))
+        .says("As LT, <2> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<2> 2 | <1> 2 -> <1> FALSE"),
+    Spec::pure("CLT", FIRST, OUT, |i, o| order(i, o, |a, b| a < b))
+        .says("As LT, <1> constant.")
+        .known(Confidence::Medium, "recollected")
+        .example("<1> 1 | <2> 2 -> <1> TRUE"),
+    Spec::pure("LE", BOTH, OUT, |i, o| order(i, o, |a, b| a <= b))
+        .says("Whether <1> is at most <2>.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 2 | <2> 2 -> <1> TRUE"),
+    Spec::pure("LEC", SECOND, OUT, |i, o| order(i, o, |a, b| a <= b))
+        .says("As LE, <2> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<2> 2 | <1> 3 -> <1> FALSE"),
+    Spec::pure("CLE", FIRST, OUT, |i, o| order(i, o, |a, b| a <= b))
+        .says("As LE, <1> constant.")
+        .known(Confidence::Medium, "recollected")
+        .example("<1> 3 | <2> 2 -> <1> FALSE"),
+    Spec::pure("GT", BOTH, OUT, |i, o| order(i, o, |a, b| a > b))
+        .says("Whether <1> is greater than <2>.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 2 | <2> 2 -> <1> FALSE"),
+    Spec::pure("GTC", SECOND, OUT, |i, o| order(i, o, |a, b| a > b))
+        .says("As GT, <2> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<2> 2 | <1> FIX(3) -> <1> TRUE"),
+    Spec::pure("CGT", FIRST, OUT, |i, o| order(i, o, |a, b| a > b))
+        .says("As GT, <1> constant.")
+        .known(Confidence::Medium, "recollected")
+        .example("<1> 3 | <2> 2 -> <1> TRUE"),
+    Spec::pure("GE", BOTH, OUT, |i, o| order(i, o, |a, b| a >= b))
+        .says("Whether <1> is at least <2>.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 2 | <2> 2 -> <1> TRUE"),
+    Spec::pure("GEC", SECOND, OUT, |i, o| order(i, o, |a, b| a >= b))
+        .says("As GE, <2> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<2> 2 | <1> 1 -> <1> FALSE"),
+    Spec::pure("CGE", FIRST, OUT, |i, o| order(i, o, |a, b| a >= b))
+        .says("As GE, <1> constant.")
+        .known(Confidence::Medium, "recollected")
+        .example("<1> 1 | <2> 2 -> <1> FALSE"),
 ];
 
 fn equal(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>, wanted: bool) -> Result<(), Fault> {

@@ -3,54 +3,61 @@
 use super::function::{Fault, Function, Inputs, Outputs};
 use super::numbers::integer;
 use super::recalled::restore;
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kinds, Value};
 
 const NUMBER_OUT: &[OutputSpec] = &[OutputSpec::of(Kinds::NUMBER)];
 
 pub(super) const TABLE: &[Spec] = &[
-    Spec {
-        name: "LIMIT",
-        sizes: None,
-        inputs: &[
+    Spec::pure(
+        "LIMIT",
+        &[
             InputSpec::active(Kinds::NUMBER),
             InputSpec::constant(Kinds::NUMBER, Preset::Rule("unbounded")),
             InputSpec::constant(Kinds::NUMBER, Preset::Rule("unbounded")),
         ],
-        outputs: NUMBER_OUT,
-        does: Does::Pure(limit),
-        behaviour: "The number, no greater than the upper limit <2> and no less than the lower limit <3>. \
+        NUMBER_OUT,
+        limit,
+    )
+    .says(
+        "The number, no greater than the upper limit <2> and no less than the lower limit <3>. \
                     An integer stays one; limits with fractions are cut off towards zero for it.",
-        source: "recollected; upper before lower as in the D0 dial functions",
-        confidence: Confidence::Medium,
-    },
-    Spec {
-        name: "DELTA",
-        sizes: None,
-        inputs: &[
+    )
+    .known(
+        Confidence::Medium,
+        "recollected; upper before lower as in the D0 dial functions",
+    )
+    .example("<1> 7 -> <1> 7"),
+    Spec::stateful(
+        "DELTA",
+        &[
             InputSpec::active(Kinds::NUMBER),
             InputSpec::constant(Kinds::NUMBER, Preset::Real(0.0)),
         ],
-        outputs: NUMBER_OUT,
-        does: Does::Stateful(|_| Box::<Delta>::default()),
-        behaviour: "Passes a number that differs from the last one passed by at least <2>; the first always.",
-        source: "D0 tablet networks, integers with 1; whether equality passes is ours",
-        confidence: Confidence::Used,
-    },
-    Spec {
-        name: "EDGE_DETECT",
-        sizes: None,
-        inputs: &[
+        NUMBER_OUT,
+        |_| Box::<Delta>::default(),
+    )
+    .says("Passes a number that differs from the last one passed by at least <2>; the first always.")
+    .known(
+        Confidence::Used,
+        "D0 tablet networks, integers with 1; whether equality passes is ours",
+    )
+    .example("<1> 1 | <1> 1 -> <1> 1 | <1> 1"),
+    Spec::stateful(
+        "EDGE_DETECT",
+        &[
             InputSpec::active(Kinds::BOOLEAN),
             InputSpec::constant(Kinds::BOOLEAN, Preset::Boolean(true)),
         ],
-        outputs: &[OutputSpec::of(Kinds::BOOLEAN)],
-        does: Does::Stateful(|_| Box::<Edge>::default()),
-        behaviour: "Sends the level <2> once each time <1> changes to it. Before the first message <1> counts as \
+        &[OutputSpec::of(Kinds::BOOLEAN)],
+        |_| Box::<Edge>::default(),
+    )
+    .says(
+        "Sends the level <2> once each time <1> changes to it. Before the first message <1> counts as \
                     the opposite level.",
-        source: "recollected; default and start ours",
-        confidence: Confidence::Medium,
-    },
+    )
+    .known(Confidence::Medium, "recollected; default and start ours")
+    .example("<1> TRUE | <1> TRUE | <1> FALSE | <1> TRUE -> <1> TRUE | <1> TRUE"),
 ];
 
 fn limit(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {

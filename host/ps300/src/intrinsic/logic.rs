@@ -1,7 +1,7 @@
 //! Boolean functions; on integers they work bit by bit.
 
 use super::function::{Fault, Inputs, Outputs};
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kinds, Value};
 
 const BITS: Kinds = Kinds::BOOLEAN.or(Kinds::INTEGER);
@@ -10,36 +10,38 @@ const SECOND: &[InputSpec] = &[
     InputSpec::active(BITS),
     InputSpec::constant(BITS, Preset::Required),
 ];
+const OUT: &[OutputSpec] = &[OutputSpec::of(BITS)];
 const SOURCE: &str = "recollected; integers bit by bit with little certainty";
 
-macro_rules! row {
-    ($name:literal, $inputs:expr, $does:expr, $behaviour:literal) => {
-        Spec {
-            name: $name,
-            sizes: None,
-            inputs: $inputs,
-            outputs: &[OutputSpec::of(BITS)],
-            does: Does::Pure($does),
-            behaviour: $behaviour,
-            source: SOURCE,
-            confidence: Confidence::High,
-        }
-    };
-}
-
 pub(super) const TABLE: &[Spec] = &[
-    row!("AND", BOTH, and, "TRUE if both are; integers bit by bit."),
-    row!("ANDC", SECOND, and, "As AND, <2> constant."),
-    row!("OR", BOTH, or, "TRUE if either is; integers bit by bit."),
-    row!("ORC", SECOND, or, "As OR, <2> constant."),
-    row!("XOR", BOTH, xor, "TRUE if they differ; integers bit by bit."),
-    row!("XORC", SECOND, xor, "As XOR, <2> constant."),
-    row!(
-        "NOT",
-        &[InputSpec::active(BITS)],
-        not,
-        "TRUE if <1> is FALSE; integers bit by bit."
-    ),
+    Spec::pure("AND", BOTH, OUT, and)
+        .says("TRUE if both are; integers bit by bit.")
+        .known(Confidence::High, SOURCE)
+        .example("<1> TRUE | <2> FALSE | <1> FIX(6) | <2> FIX(3) -> <1> FALSE | <1> FIX(2)"),
+    Spec::pure("ANDC", SECOND, OUT, and)
+        .says("As AND, <2> constant.")
+        .known(Confidence::High, SOURCE)
+        .example("<2> TRUE | <1> TRUE -> <1> TRUE"),
+    Spec::pure("OR", BOTH, OUT, or)
+        .says("TRUE if either is; integers bit by bit.")
+        .known(Confidence::High, SOURCE)
+        .example("<1> TRUE | <2> FALSE -> <1> TRUE"),
+    Spec::pure("ORC", SECOND, OUT, or)
+        .says("As OR, <2> constant.")
+        .known(Confidence::High, SOURCE)
+        .example("<2> FIX(1) | <1> FIX(6) -> <1> FIX(7)"),
+    Spec::pure("XOR", BOTH, OUT, xor)
+        .says("TRUE if they differ; integers bit by bit.")
+        .known(Confidence::High, SOURCE)
+        .example("<1> TRUE | <2> TRUE -> <1> FALSE"),
+    Spec::pure("XORC", SECOND, OUT, xor)
+        .says("As XOR, <2> constant.")
+        .known(Confidence::High, SOURCE)
+        .example("<2> TRUE | <1> FALSE -> <1> TRUE"),
+    Spec::pure("NOT", &[InputSpec::active(BITS)], OUT, not)
+        .says("TRUE if <1> is FALSE; integers bit by bit.")
+        .known(Confidence::High, SOURCE)
+        .example("<1> TRUE | <1> FIX(0) -> <1> FALSE | <1> FIX(-1)"),
 ];
 
 fn and(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {

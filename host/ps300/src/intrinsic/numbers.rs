@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use super::function::{Fault, Function, Inputs, Outputs, domain};
 use super::recalled::{Recalled, restore};
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kinds, Value};
 
 const NUMBER: &[InputSpec] = &[InputSpec::active(Kinds::NUMBER)];
@@ -13,95 +13,71 @@ const REAL_OUT: &[OutputSpec] = &[OutputSpec::of(Kinds::REAL)];
 const RECOLLECTED: &str = "recollected: name certain, rounding less so";
 
 pub(super) const TABLE: &[Spec] = &[
-    Spec {
-        name: "ROUND",
-        sizes: None,
-        inputs: NUMBER,
-        outputs: INTEGER_OUT,
-        does: Does::Pure(|inputs, outputs| send_integer(inputs, outputs, f64::round)),
-        behaviour: "The nearest integer; halves go away from zero.",
-        source: RECOLLECTED,
-        confidence: Confidence::Medium,
-    },
-    Spec {
-        name: "CEILING",
-        sizes: None,
-        inputs: NUMBER,
-        outputs: INTEGER_OUT,
-        does: Does::Pure(|inputs, outputs| send_integer(inputs, outputs, f64::ceil)),
-        behaviour: "The least integer that is not less.",
-        source: RECOLLECTED,
-        confidence: Confidence::Medium,
-    },
-    Spec {
-        name: "FIX",
-        sizes: None,
-        inputs: NUMBER,
-        outputs: INTEGER_OUT,
-        does: Does::Pure(|inputs, outputs| send_integer(inputs, outputs, f64::trunc)),
-        behaviour: "Real to integer; the fraction is cut off.",
-        source: RECOLLECTED,
-        confidence: Confidence::Medium,
-    },
-    Spec {
-        name: "FLOAT",
-        sizes: None,
-        inputs: NUMBER,
-        outputs: REAL_OUT,
-        does: Does::Pure(|inputs, outputs| {
-            outputs.send(1, inputs.number(1)?);
-            Ok(())
-        }),
-        behaviour: "Integer to real.",
-        source: RECOLLECTED,
-        confidence: Confidence::Medium,
-    },
-    Spec {
-        name: "SINCOS",
-        sizes: None,
-        inputs: NUMBER,
-        outputs: &[OutputSpec::of(Kinds::REAL), OutputSpec::of(Kinds::REAL)],
-        does: Does::Pure(|inputs, outputs| {
+    Spec::pure("ROUND", NUMBER, INTEGER_OUT, |inputs, outputs| {
+        send_integer(inputs, outputs, f64::round)
+    })
+    .says("The nearest integer; halves go away from zero.")
+    .known(Confidence::Medium, RECOLLECTED)
+    .example("<1> 2.5 | <1> -2.5 -> <1> FIX(3) | <1> FIX(-3)"),
+    Spec::pure("CEILING", NUMBER, INTEGER_OUT, |inputs, outputs| {
+        send_integer(inputs, outputs, f64::ceil)
+    })
+    .says("The least integer that is not less.")
+    .known(Confidence::Medium, RECOLLECTED)
+    .example("<1> 2.1 | <1> -2.9 -> <1> FIX(3) | <1> FIX(-2)"),
+    Spec::pure("FIX", NUMBER, INTEGER_OUT, |inputs, outputs| {
+        send_integer(inputs, outputs, f64::trunc)
+    })
+    .says("Real to integer; the fraction is cut off.")
+    .known(Confidence::Medium, RECOLLECTED)
+    .example("<1> 2.9 | <1> -2.9 -> <1> FIX(2) | <1> FIX(-2)"),
+    Spec::pure("FLOAT", NUMBER, REAL_OUT, |inputs, outputs| {
+        outputs.send(1, inputs.number(1)?);
+        Ok(())
+    })
+    .says("Integer to real.")
+    .known(Confidence::Medium, RECOLLECTED)
+    .example("<1> FIX(4) -> <1> 4"),
+    Spec::pure(
+        "SINCOS",
+        NUMBER,
+        &[OutputSpec::of(Kinds::REAL), OutputSpec::of(Kinds::REAL)],
+        |inputs, outputs| {
             let (sin, cos) = inputs.number(1)?.to_radians().sin_cos();
             outputs.send(1, sin);
             outputs.send(2, cos);
             Ok(())
-        }),
-        behaviour: "Output <1> the sine, <2> the cosine of an angle in degrees.",
-        source: "recollected",
-        confidence: Confidence::Medium,
-    },
-    Spec {
-        name: "SQROOT",
-        sizes: None,
-        inputs: NUMBER,
-        outputs: REAL_OUT,
-        does: Does::Pure(|inputs, outputs| {
-            let x = inputs.number(1)?;
-            if x < 0.0 {
-                return domain("square root of a negative number");
-            }
-            outputs.send(1, x.sqrt());
-            Ok(())
-        }),
-        behaviour: "The square root; a negative number is reported and gives nothing.",
-        source: "recollected",
-        confidence: Confidence::High,
-    },
-    Spec {
-        name: "AVERAGE",
-        sizes: None,
-        inputs: &[
+        },
+    )
+    .says("Output <1> the sine, <2> the cosine of an angle in degrees.")
+    .known(Confidence::Medium, "recollected")
+    .example("<1> 30 -> <1> 0.5 | <2> 0.8660254037844386"),
+    Spec::pure("SQROOT", NUMBER, REAL_OUT, |inputs, outputs| {
+        let x = inputs.number(1)?;
+        if x < 0.0 {
+            return domain("square root of a negative number");
+        }
+        outputs.send(1, x.sqrt());
+        Ok(())
+    })
+    .says("The square root; a negative number is reported and gives nothing.")
+    .known(Confidence::High, "recollected")
+    .example("<1> 9 -> <1> 3"),
+    Spec::stateful(
+        "AVERAGE",
+        &[
             InputSpec::active(Kinds::NUMBER),
             InputSpec::constant(Kinds::INTEGER, Preset::Integer(1)),
         ],
-        outputs: REAL_OUT,
-        does: Does::Stateful(|_| Box::<Average>::default()),
-        behaviour: "The mean of the last <2> numbers, of as many as have come while they are fewer. \
+        REAL_OUT,
+        |_| Box::<Average>::default(),
+    )
+    .says(
+        "The mean of the last <2> numbers, of as many as have come while they are fewer. \
                     <2> lies between 1 and 1024.",
-        source: "recollected; bounds ours",
-        confidence: Confidence::Low,
-    },
+    )
+    .known(Confidence::Low, "recollected; bounds ours")
+    .example("<1> 3 | <1> 5 -> <1> 3 | <1> 5"),
 ];
 
 /// A real that is whole already, as an integer; those beyond 32 bits have no answer.

@@ -6,58 +6,62 @@ use glam::DMat3;
 
 use super::function::{Fault, Function, Inputs, Outputs, domain};
 use super::recalled::restore;
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kind, Kinds, Value};
 
 const MATRIX3: OutputSpec = OutputSpec::of(Kinds::of(&[Kind::Matrix3]));
 
 const ANGLE_IN: &[InputSpec] = &[InputSpec::active(Kinds::NUMBER)];
 
+const MOVEMENT_IN: &[InputSpec] = &[
+    InputSpec::active(Kinds::NUMBER),
+    InputSpec::constant(Kinds::NUMBER, Preset::Real(0.0)),
+    InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
+];
+const MOVEMENT_OUT: &[OutputSpec] = &[MATRIX3, OutputSpec::of(Kinds::REAL)];
+
 macro_rules! absolute {
-    ($name:literal, $about:expr, $source:literal, $confidence:ident) => {
-        Spec {
-            name: $name,
-            sizes: None,
-            inputs: ANGLE_IN,
-            outputs: &[MATRIX3],
-            does: Does::Pure(|inputs, outputs| {
-                outputs.send(1, $about(inputs.number(1)?.to_radians()));
-                Ok(())
-            }),
-            behaviour: "The rotation by an angle in degrees.",
-            source: $source,
-            confidence: Confidence::$confidence,
-        }
+    ($name:literal, $about:expr) => {
+        Spec::pure($name, ANGLE_IN, &[MATRIX3], |inputs, outputs| {
+            outputs.send(1, $about(inputs.number(1)?.to_radians()));
+            Ok(())
+        })
+        .says("The rotation by an angle in degrees.")
     };
 }
 
 macro_rules! integrating {
     ($name:literal, $about:expr) => {
-        Spec {
-            name: $name,
-            sizes: None,
-            inputs: &[
-                InputSpec::active(Kinds::NUMBER),
-                InputSpec::constant(Kinds::NUMBER, Preset::Real(0.0)),
-                InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
-            ],
-            outputs: &[MATRIX3, OutputSpec::of(Kinds::REAL)],
-            does: Does::Stateful(|_| Box::new(Turning { about: $about, degrees: None })),
-            behaviour: "Running angle in degrees: the start <2> plus every <1> times the scale <3>. Output <1> the \
-                        rotation by it, <2> the angle. Sending <2> starts anew from there without sending.",
-            source: "D0 dial networks for the inputs and output 1; output 2 recollected; defaults ours",
-            confidence: Confidence::Used,
-        }
+        Spec::stateful($name, MOVEMENT_IN, MOVEMENT_OUT, |_| {
+            Box::new(Turning { about: $about, degrees: None })
+        })
+        .says(
+            "Running angle in degrees: the start <2> plus every <1> times the scale <3>. Output <1> the rotation \
+             by it, <2> the angle. Sending <2> starts anew from there without sending.",
+        )
+        .known(
+            Confidence::Used,
+            "D0 dial networks for the inputs and output 1; output 2 recollected; defaults ours",
+        )
     };
 }
 
 pub(super) const TABLE: &[Spec] = &[
-    absolute!("XROTATE", DMat3::from_rotation_x, "recollected", High),
-    absolute!("YROTATE", DMat3::from_rotation_y, "recollected", High),
-    absolute!("ZROTATE", DMat3::from_rotation_z, "D0 viewing networks", Used),
-    integrating!("DXROTATE", DMat3::from_rotation_x),
-    integrating!("DYROTATE", DMat3::from_rotation_y),
-    integrating!("DZROTATE", DMat3::from_rotation_z),
+    absolute!("XROTATE", DMat3::from_rotation_x)
+        .known(Confidence::High, "recollected")
+        .example("<1> 90 -> <1> M3D(1,0,0, 0,0,-1, 0,1,0)"),
+    absolute!("YROTATE", DMat3::from_rotation_y)
+        .known(Confidence::High, "recollected")
+        .example("<1> 90 -> <1> M3D(0,0,1, 0,1,0, -1,0,0)"),
+    absolute!("ZROTATE", DMat3::from_rotation_z)
+        .known(Confidence::Used, "D0 viewing networks")
+        .example("<1> 90 -> <1> M3D(0,-1,0, 1,0,0, 0,0,1)"),
+    integrating!("DXROTATE", DMat3::from_rotation_x)
+        .example("<3> 200 | <1> 0.45 -> <1> M3D(1,0,0, 0,0,-1, 0,1,0) | <2> 90"),
+    integrating!("DYROTATE", DMat3::from_rotation_y)
+        .example("<2> 45 | <1> 45 -> <1> M3D(0,0,1, 0,1,0, -1,0,0) | <2> 90"),
+    integrating!("DZROTATE", DMat3::from_rotation_z)
+        .example("<3> 90 | <1> 0.5 | <1> 0.5 -> <1> M3D(0.7071067811865476,-0.7071067811865476,0, 0.7071067811865476,0.7071067811865476,0, 0,0,1) | <2> 45 | <1> M3D(0,-1,0, 1,0,0, 0,0,1) | <2> 90"),
 ];
 
 struct Turning {

@@ -2,7 +2,7 @@
 #![allow(clippy::unnecessary_wraps, reason = "the rows of a table share one signature")]
 
 use super::function::{Fault, Inputs, Outputs, domain};
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec, Times};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec, Times};
 use crate::value::Kinds;
 
 const ANY: InputSpec = InputSpec::active(Kinds::ANY);
@@ -12,145 +12,76 @@ const TRUTH: InputSpec = InputSpec::active(Kinds::BOOLEAN);
 const OUT: OutputSpec = OutputSpec::of(Kinds::ANY);
 const MANY: &[OutputSpec] = &[OUT.times(Times::Size)];
 
-/// The range of sizes the record gives for SYNC; taken for the other sized types too.
-const SIZES: Option<(u8, u8)> = Some((1, 127));
-
-macro_rules! row {
-    ($name:literal, $sizes:expr, $inputs:expr, $outputs:expr, $does:expr, $behaviour:literal, $source:literal, $confidence:ident) => {
-        Spec {
-            name: $name,
-            sizes: $sizes,
-            inputs: $inputs,
-            outputs: $outputs,
-            does: Does::Pure($does),
-            behaviour: $behaviour,
-            source: $source,
-            confidence: Confidence::$confidence,
-        }
-    };
-}
-
 pub(super) const TABLE: &[Spec] = &[
-    row!(
-        "CONSTANT",
-        None,
-        &[ANY, STORED],
-        &[OUT],
-        constant,
-        "Every message at <1>, of any kind, sends the value of <2>.",
-        "D0 rendering networks",
-        Used
-    ),
-    row!(
-        "NOP",
-        None,
-        &[ANY],
-        &[OUT],
-        nop,
-        "Passes messages on.",
-        "D0 as a sink; passing on recollected",
-        Used
-    ),
-    Spec {
-        name: "PASSTHRU",
-        sizes: SIZES,
-        inputs: &[ANY.times(Times::Size)],
-        outputs: MANY,
-        does: Does::Each(pass_one),
-        behaviour: "Independent wires: a message at any input leaves at once on the output of the same number.",
-        source: "recollected",
-        confidence: Confidence::Medium,
-    },
-    row!(
-        "ROUTE",
-        SIZES,
-        &[CHOICE, ANY],
-        MANY,
-        route,
-        "Sends the value <2> on the output whose number is <1>. A number without output is reported.",
-        "D0 tablet networks",
-        Used
-    ),
-    row!(
-        "ROUTEC",
-        SIZES,
-        &[CHOICE, STORED],
-        MANY,
-        route,
-        "As ROUTE, <2> constant: every number sends the stored value.",
-        "recollected",
-        High
-    ),
-    row!(
+    Spec::pure("CONSTANT", &[ANY, STORED], &[OUT], constant)
+        .says("Every message at <1>, of any kind, sends the value of <2>.")
+        .known(Confidence::Used, "D0 rendering networks")
+        .example("<1> TRUE | <2> 'x' | <1> 5 -> <1> 'x' | <1> 'x'"),
+    Spec::pure("NOP", &[ANY], &[OUT], nop)
+        .says("Passes messages on.")
+        .known(Confidence::Used, "D0 as a sink; passing on recollected")
+        .example("<1> 'x' -> <1> 'x'"),
+    Spec::each("PASSTHRU", &[ANY.times(Times::Size)], MANY, pass_one)
+        .sized(1, 127)
+        .says("Independent wires: a message at any input leaves at once on the output of the same number.")
+        .known(Confidence::Medium, "recollected")
+        .example("(3) | <2> 1 | <3> 'x' -> <2> 1 | <3> 'x'"),
+    Spec::pure("ROUTE", &[CHOICE, ANY], MANY, route)
+        .sized(1, 127)
+        .says("Sends the value <2> on the output whose number is <1>. A number without output is reported.")
+        .known(Confidence::Used, "D0 tablet networks")
+        .example("(3) | <1> FIX(2) | <2> 'b' -> <2> 'b'"),
+    Spec::pure("ROUTEC", &[CHOICE, STORED], MANY, route)
+        .sized(1, 127)
+        .says("As ROUTE, <2> constant: every number sends the stored value.")
+        .known(Confidence::High, "recollected")
+        .example("(2) | <2> 'v' | <1> FIX(2) | <1> FIX(1) -> <2> 'v' | <1> 'v'"),
+    Spec::pure(
         "CROUTE",
-        SIZES,
         &[InputSpec::constant(Kinds::INTEGER, Preset::Required), ANY],
         MANY,
         route,
-        "As ROUTE, <1> constant: a set switch for a stream.",
-        "recollected",
-        High
-    ),
-    row!(
-        "BROUTE",
-        None,
-        &[TRUTH, ANY],
-        &[OUT, OUT],
-        broute,
-        "Sends the value <2> on output <1> if <1> is TRUE, on output <2> if it is FALSE.",
-        "recollected",
-        High
-    ),
-    row!(
-        "BROUTEC",
-        None,
-        &[TRUTH, STORED],
-        &[OUT, OUT],
-        broute,
-        "As BROUTE, <2> constant.",
-        "recollected",
-        High
-    ),
-    row!(
+    )
+    .sized(1, 127)
+    .says("As ROUTE, <1> constant: a set switch for a stream.")
+    .known(Confidence::High, "recollected")
+    .example("(2) | <1> FIX(2) | <2> 'v' | <1> FIX(1) | <2> 'w' -> <2> 'v' | <1> 'w'"),
+    Spec::pure("BROUTE", &[TRUTH, ANY], &[OUT, OUT], broute)
+        .says("Sends the value <2> on output <1> if <1> is TRUE, on output <2> if it is FALSE.")
+        .known(Confidence::High, "recollected")
+        .example("<1> TRUE | <2> 1 | <1> FALSE | <2> 2 -> <1> 1 | <2> 2"),
+    Spec::pure("BROUTEC", &[TRUTH, STORED], &[OUT, OUT], broute)
+        .says("As BROUTE, <2> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<2> 9 | <1> FALSE -> <2> 9"),
+    Spec::pure(
         "CBROUTE",
-        None,
         &[InputSpec::constant(Kinds::BOOLEAN, Preset::Required), ANY],
         &[OUT, OUT],
         broute,
-        "As BROUTE, <1> constant.",
-        "recollected",
-        High
-    ),
-    row!(
-        "BOOLEAN_CHOOSE",
-        None,
-        &[TRUTH, STORED, STORED],
-        &[OUT],
-        boolean_choose,
-        "TRUE sends the value of <2>, FALSE that of <3>.",
-        "recollected",
-        Medium
-    ),
-    row!(
+    )
+    .says("As BROUTE, <1> constant.")
+    .known(Confidence::High, "recollected")
+    .example("<1> TRUE | <2> 9 -> <1> 9"),
+    Spec::pure("BOOLEAN_CHOOSE", &[TRUTH, STORED, STORED], &[OUT], boolean_choose)
+        .says("TRUE sends the value of <2>, FALSE that of <3>.")
+        .known(Confidence::Medium, "recollected")
+        .example("<2> 'yes' | <3> 'no' | <1> FALSE | <1> TRUE -> <1> 'no' | <1> 'yes'"),
+    Spec::pure(
         "INPUTS_CHOOSE",
-        Some((2, 127)),
         &[STORED.times(Times::SizeLessOne), CHOICE],
         &[OUT],
         choose,
-        "The last input chooses by number which of the values stored before it is sent.",
-        "recollected",
-        Medium
-    ),
-    row!(
-        "SYNC",
-        Some((2, 127)),
-        &[ANY.times(Times::Size)],
-        MANY,
-        pass_all,
-        "Waits until every input has a message, then sends each on the output of its number, in order.",
-        "recollected, with the range of sizes",
-        High
-    ),
+    )
+    .sized(2, 127)
+    .says("The last input chooses by number which of the values stored before it is sent.")
+    .known(Confidence::Medium, "recollected")
+    .example("(3) | <1> 'a' | <2> 'b' | <3> FIX(2) -> <1> 'b'"),
+    Spec::pure("SYNC", &[ANY.times(Times::Size)], MANY, pass_all)
+        .sized(2, 127)
+        .says("Waits until every input has a message, then sends each on the output of its number, in order.")
+        .known(Confidence::High, "recollected, with the range of sizes")
+        .example("(2) | <2> 'b' | <2> 'd' | <1> 'a' -> <1> 'a' | <2> 'b'"),
 ];
 
 fn pass(outputs: &mut Outputs<'_>, output: u8, inputs: &Inputs<'_>, input: u8) {

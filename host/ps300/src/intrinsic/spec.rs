@@ -22,6 +22,10 @@ pub struct Spec {
     pub source: &'static str,
     /// How far it can be relied on.
     pub confidence: Confidence,
+    /// What goes into an instance `f` and what comes out: steps with ` | ` between them, ` -> `, messages.
+    /// A step is `<2> 10`, sent to an input; `@0.5`, network time passing to 0.5 seconds; `(3)`, the size;
+    /// or a command. A message is `<1> 11`, or `<1>g 11` where another instance sends it.
+    pub example: &'static str,
     pub(crate) does: Does,
 }
 
@@ -35,6 +39,93 @@ pub(crate) enum Does {
     Stateful(fn(u8) -> Box<dyn Function>),
     /// As `Stateful`, and told of network time.
     Clock(fn(u8) -> Box<dyn Function>),
+}
+
+type Fire = fn(&Inputs<'_>, &mut Outputs<'_>) -> Result<(), Fault>;
+type Make = fn(u8) -> Box<dyn Function>;
+
+/// Rows are built up; what every row needs is not written out in each.
+impl Spec {
+    const fn new(
+        name: &'static str,
+        inputs: &'static [InputSpec],
+        outputs: &'static [OutputSpec],
+        does: Does,
+    ) -> Self {
+        Self {
+            name,
+            sizes: None,
+            inputs,
+            outputs,
+            behaviour: "",
+            source: "",
+            confidence: Confidence::Project,
+            example: "",
+            does,
+        }
+    }
+
+    /// A function of the inputs alone.
+    pub(crate) const fn pure(
+        name: &'static str,
+        inputs: &'static [InputSpec],
+        outputs: &'static [OutputSpec],
+        fire: Fire,
+    ) -> Self {
+        Self::new(name, inputs, outputs, Does::Pure(fire))
+    }
+
+    /// A function of each message by itself, whichever input it came to.
+    pub(crate) const fn each(
+        name: &'static str,
+        inputs: &'static [InputSpec],
+        outputs: &'static [OutputSpec],
+        fire: Fire,
+    ) -> Self {
+        Self::new(name, inputs, outputs, Does::Each(fire))
+    }
+
+    /// A function with a memory.
+    pub(crate) const fn stateful(
+        name: &'static str,
+        inputs: &'static [InputSpec],
+        outputs: &'static [OutputSpec],
+        make: Make,
+    ) -> Self {
+        Self::new(name, inputs, outputs, Does::Stateful(make))
+    }
+
+    /// A function with a memory that is told of network time.
+    pub(crate) const fn clock(
+        name: &'static str,
+        inputs: &'static [InputSpec],
+        outputs: &'static [OutputSpec],
+        make: Make,
+    ) -> Self {
+        Self::new(name, inputs, outputs, Does::Clock(make))
+    }
+
+    /// The least and the greatest size of a sized type.
+    pub(crate) const fn sized(mut self, least: u8, greatest: u8) -> Self {
+        self.sizes = Some((least, greatest));
+        self
+    }
+
+    pub(crate) const fn says(mut self, behaviour: &'static str) -> Self {
+        self.behaviour = behaviour;
+        self
+    }
+
+    pub(crate) const fn known(mut self, confidence: Confidence, source: &'static str) -> Self {
+        self.confidence = confidence;
+        self.source = source;
+        self
+    }
+
+    pub(crate) const fn example(mut self, example: &'static str) -> Self {
+        self.example = example;
+        self
+    }
 }
 
 /// How far a row can be relied on.

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::function::{Fault, Inputs, Outputs};
-use super::spec::{Confidence, Does, InputSpec, OutputSpec, Preset, Spec};
+use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kind, Kinds, Value};
 
 const AXIS_IN: &[InputSpec] = &[InputSpec::active(Kinds::NUMBER)];
@@ -11,91 +11,41 @@ const AXIS_OUT: &[OutputSpec] = &[OutputSpec::of(Kinds::of(&[Kind::Vector3]))];
 const EXTENDED: Kinds = Kinds::NUMBER.or(Kinds::of(&[Kind::Vector2, Kind::Vector3]));
 const REAL: OutputSpec = OutputSpec::of(Kinds::REAL);
 
-macro_rules! row {
-    ($name:literal, $inputs:expr, $outputs:expr, $does:expr, $behaviour:literal, $source:literal, $confidence:ident) => {
-        Spec {
-            name: $name,
-            sizes: None,
-            inputs: $inputs,
-            outputs: $outputs,
-            does: Does::Pure($does),
-            behaviour: $behaviour,
-            source: $source,
-            confidence: Confidence::$confidence,
-        }
-    };
-}
-
 pub(super) const TABLE: &[Spec] = &[
-    row!(
-        "XVECTOR",
-        AXIS_IN,
-        AXIS_OUT,
-        |i, o| axis(i, o, DVec3::X),
-        "The number on the x axis, zeros elsewhere.",
-        "D0 dial networks",
-        Used
-    ),
-    row!(
-        "YVECTOR",
-        AXIS_IN,
-        AXIS_OUT,
-        |i, o| axis(i, o, DVec3::Y),
-        "The number on the y axis, zeros elsewhere.",
-        "D0 dial networks",
-        Used
-    ),
-    row!(
-        "ZVECTOR",
-        AXIS_IN,
-        AXIS_OUT,
-        |i, o| axis(i, o, DVec3::Z),
-        "The number on the z axis, zeros elsewhere.",
-        "D0 dial networks",
-        Used
-    ),
-    row!(
-        "VEC",
-        &[InputSpec::active(EXTENDED), InputSpec::active(Kinds::NUMBER)],
-        &[OutputSpec::of(Kinds::VECTOR)],
-        vec,
-        "<1> extended by the number <2>: two numbers give a 2D vector, a 2D vector a 3D one, a 3D vector a 4D one.",
-        "recollected",
-        Medium
-    ),
-    row!(
-        "VECC",
-        &[
+Spec::pure("XVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::X))
+.says("The number on the x axis, zeros elsewhere.")
+.known(Confidence::Used, "D0 dial networks")
+.example("<1> 2 -> <1> V3D(2,0,0)"),
+Spec::pure("YVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::Y))
+.says("The number on the y axis, zeros elsewhere.")
+.known(Confidence::Used, "D0 dial networks")
+.example("<1> 2 -> <1> V3D(0,2,0)"),
+Spec::pure("ZVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::Z))
+.says("The number on the z axis, zeros elsewhere.")
+.known(Confidence::Used, "D0 dial networks")
+.example("<1> FIX(2) -> <1> V3D(0,0,2)"),
+Spec::pure("VEC", &[InputSpec::active(EXTENDED), InputSpec::active(Kinds::NUMBER)], &[OutputSpec::of(Kinds::VECTOR)], vec)
+.says("<1> extended by the number <2>: two numbers give a 2D vector, a 2D vector a 3D one, a 3D vector a 4D one.")
+.known(Confidence::Medium, "recollected")
+.example("<1> 1 | <2> 2 -> <1> V2D(1,2)"),
+Spec::pure("VECC", &[
             InputSpec::active(EXTENDED),
             InputSpec::constant(Kinds::NUMBER, Preset::Required)
-        ],
-        &[OutputSpec::of(Kinds::VECTOR)],
-        vec,
-        "As VEC, <2> constant.",
-        "recollected",
-        Medium
-    ),
-    row!(
-        "CVEC",
-        &[
+        ], &[OutputSpec::of(Kinds::VECTOR)], vec)
+.says("As VEC, <2> constant.")
+.known(Confidence::Medium, "recollected")
+.example("<2> 4 | <1> V3D(1,2,3) -> <1> V4D(1,2,3,4)"),
+Spec::pure("CVEC", &[
             InputSpec::constant(EXTENDED, Preset::Required),
             InputSpec::active(Kinds::NUMBER)
-        ],
-        &[OutputSpec::of(Kinds::VECTOR)],
-        vec,
-        "As VEC, <1> constant.",
-        "recollected",
-        Medium
-    ),
-    row!(
-        "PARTS",
-        &[InputSpec::active(Kinds::VECTOR)],
-        &[REAL, REAL, REAL, REAL],
-        parts,
-        "The components of a vector, one on each output, in order; outputs beyond its dimension stay silent.",
-        "recollected",
-        Medium
-    ),
+        ], &[OutputSpec::of(Kinds::VECTOR)], vec)
+.says("As VEC, <1> constant.")
+.known(Confidence::Medium, "recollected")
+.example("<1> 1 | <2> 2 -> <1> V2D(1,2)"),
+Spec::pure("PARTS", &[InputSpec::active(Kinds::VECTOR)], &[REAL, REAL, REAL, REAL], parts)
+.says("The components of a vector, one on each output, in order; outputs beyond its dimension stay silent.")
+.known(Confidence::Medium, "recollected")
+.example("<1> V3D(1,2,3) -> <1> 1 | <2> 2 | <3> 3"),
 ];
 
 fn axis(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>, along: DVec3) -> Result<(), Fault> {

@@ -3,7 +3,7 @@
 //! Ordinary names to connect to; commands cannot redefine or delete them, so that the host can rely on
 //! them. Source: `docs/protocols/ps300.md`, "Initial structure: device function instances".
 
-use crate::intrinsic::{Confidence, Does, OutputSpec, Spec};
+use crate::intrinsic::{Confidence, OutputSpec, Spec};
 use crate::value::{Kind, Kinds};
 
 const VECTOR2: OutputSpec = OutputSpec::of(Kinds::of(&[Kind::Vector2]));
@@ -13,16 +13,9 @@ const BOOLEAN: OutputSpec = OutputSpec::of(Kinds::BOOLEAN);
 
 macro_rules! device {
     ($name:literal, $outputs:expr, $behaviour:literal, $source:literal, $confidence:ident) => {
-        Spec {
-            name: $name,
-            sizes: None,
-            inputs: &[],
-            outputs: $outputs,
-            does: Does::Pure(|_, _| Ok(())),
-            behaviour: $behaviour,
-            source: $source,
-            confidence: Confidence::$confidence,
-        }
+        Spec::pure($name, &[], $outputs, |_, _| Ok(()))
+            .says($behaviour)
+            .known(Confidence::$confidence, $source)
     };
 }
 

@@ -15,7 +15,8 @@ has a message, and uses up one of each. An input marked *c* is constant: it keep
 fires nothing. After *=* stands what a constant input holds at first; without it the function waits for a value.
 
 How far a row can be trusted: *used*, working programs of the time agree with it; *high*, *medium*, *low*,
-recollected, less and less surely; *project*, dialrig's own rule or function. Sources D0 are programs of 1989.
+recollected, less and less surely; *project*, dialrig's own rule or function. Sources D0 are programs of 1989;
+*ours* is what this project decided where nothing is on record. An example ends with what comes out, in braces.
 ";
 
 const DEVICES: &str = "
@@ -104,6 +105,26 @@ fn function(page: &mut String, spec: &Spec) {
         let _ = writeln!(page, "- out {number} {}", output.kinds);
     }
     let _ = writeln!(page, "\n{} · {}", spec.confidence.name(), escaped(spec.source));
+    let _ = writeln!(page, "\n```ps300\n{}```", example(spec));
+}
+
+/// The steps of an example as commands, network time and the messages that come out as comments.
+fn example(spec: &Spec) -> String {
+    let (steps, messages) = spec.example.split_once(" -> ").unwrap_or((spec.example, ""));
+    let sized = steps.strip_prefix('(').and_then(|rest| rest.split_once(") | "));
+    let (size, steps) = sized.map_or((String::new(), steps), |(size, rest)| (format!("({size})"), rest));
+    let mut text = format!("f := F:{}{size};\n", spec.name);
+    for step in steps.split(" | ") {
+        let sent = step.strip_prefix('<').and_then(|rest| rest.split_once("> "));
+        // Writing to a string cannot fail, here and below.
+        let _ = match (sent, step.strip_prefix('@')) {
+            (Some((input, value)), _) => writeln!(text, "SEND {value} TO <{input}>f;"),
+            (None, Some(secs)) => writeln!(text, "{{ at {secs} s }}"),
+            (None, None) => writeln!(text, "{step};"),
+        };
+    }
+    let _ = writeln!(text, "{{ {} }}", messages.replace(" | ", ", "));
+    text
 }
 
 fn mark(input: &InputSpec) -> &'static str {

@@ -1,48 +1,10 @@
 //! What a function remembers is all it needs to go on: a new instance that recalls it does the same.
 
-use glam::{DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
 use ps300::intrinsic::{self, InputSpec, Spec};
 use ps300::language::Input;
-use ps300::{Kind, Machine, Value};
+use ps300::{Machine, Value};
 
-/// Numbers to choose with, the same for the same seed (xorshift, Marsaglia 2003).
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, bound: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0 % bound
-    }
-
-    fn number(&mut self) -> f64 {
-        self.below(41) as f64 / 8.0 - 1.0
-    }
-
-    /// A message `input` takes, of a kind with a literal.
-    fn value(&mut self, input: InputSpec) -> Value {
-        let kinds: Vec<_> = input
-            .kinds
-            .iter()
-            .filter(|kind| !matches!(kind, Kind::Vectors | Kind::Picks | Kind::Matrix4x3))
-            .collect();
-        let kind = kinds[self.below(kinds.len() as u64) as usize];
-        let x = self.number();
-        match kind {
-            Kind::Boolean => (x > 1.5).into(),
-            Kind::Integer => (self.below(6) as i32).into(),
-            Kind::Real => x.into(),
-            Kind::Vector2 => DVec2::new(x, 1.0).into(),
-            Kind::Vector3 => DVec3::new(x, 1.0, -x).into(),
-            Kind::Vector4 => DVec4::new(x, 1.0, -x, 0.5).into(),
-            Kind::Matrix2 => DMat2::from_angle(x).into(),
-            Kind::Matrix3 => DMat3::from_rotation_x(x).into(),
-            Kind::Matrix4 => DMat4::from_rotation_x(x).into(),
-            _ => ["", "a", "ab c", "12", "\n"][self.below(5) as usize].into(),
-        }
-    }
-}
+use crate::dice::Dice;
 
 /// One function in a machine, and what was sent to it.
 struct Trial {
@@ -152,7 +114,7 @@ fn a_function_that_recalls_goes_on_as_the_one_remembered() {
     for spec in remembering() {
         let mut kept_anything = false;
         for seed in 1..=24 {
-            let mut dice = Dice(0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(seed));
+            let mut dice = Dice::new(seed);
             let mut trial = Trial::new(spec);
             for _ in 0..dice.below(40) {
                 trial.step(&mut dice, &["f"]);
@@ -173,7 +135,7 @@ fn a_function_that_recalls_goes_on_as_the_one_remembered() {
 #[test]
 fn a_state_that_does_not_fit_changes_nothing() {
     for spec in remembering() {
-        let mut dice = Dice(7);
+        let mut dice = Dice::new(7);
         let mut trial = Trial::new(spec);
         for _ in 0..40 {
             trial.step(&mut dice, &["f"]);
