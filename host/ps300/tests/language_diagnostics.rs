@@ -67,13 +67,73 @@ const CASES: &[Case] = &[
         read: &[],
     },
     Case {
-        source: "a := set rate 1 1;",
-        said: &[("1:10", "found `rate`", "the PS 300 had this")],
+        source: "a := set rate on;",
+        said: &[("1:15", "found `on`", "EXTERNAL, or how many frames on")],
         read: &[],
     },
     Case {
         source: "a := polygon 0,0,0;",
-        said: &[("1:6", "found `polygon`", "the PS 300 had this")],
+        said: &[("1:13", "a polygon of 1 corners", "three or more")],
+        read: &[],
+    },
+    Case {
+        source: "a := polygon 0,0 1,0 1,1\ns := nil;",
+        said: &[("1:25", "not ended", "`;`")],
+        read: &["s := NIL;"],
+    },
+    Case {
+        source: "a := vec 0,0 1,1\np := nil;",
+        said: &[("1:17", "not ended", "`;`")],
+        read: &["p := NIL;"],
+    },
+    Case {
+        source: "a := bspline 0,0 1,1 chords=9;",
+        said: &[("1:13", "this curve has no ORDER", "the degree plus one")],
+        read: &[],
+    },
+    Case {
+        source: "a := bspline order=2 0,0 1,1 chord=9;",
+        said: &[("1:30", "found `chord`", "CHORDS=20")],
+        read: &[],
+    },
+    Case {
+        source: "a := poly order=2 1,1 1,1 chords=9;",
+        said: &[("1:10", "ORDER=2, but 2 coefficients", "3 coefficients")],
+        read: &[],
+    },
+    Case {
+        source: "a := rational rot;",
+        said: &[("1:15", "found `rot`", "BSPLINE or POLYNOMIAL")],
+        read: &[],
+    },
+    Case {
+        source: "a := begin_font c[65: p 0,0; c[66]: p 0,0; end_font;",
+        said: &[("1:21", "found `:`", "`]`")],
+        read: &["a := BEGIN_FONT\n    C[66]: N=1 P 0,0;\nEND_FONT;"],
+    },
+    Case {
+        source: "a := begin_font c[65]: p 0,0;\nb := nil;",
+        said: &[("1:6", "font is never ended", "END_FONT")],
+        read: &["b := NIL;"],
+    },
+    Case {
+        source: "setup cnes true <1>a;",
+        said: &[("1:7", "found `cnes`", "did you mean CNESS?")],
+        read: &[],
+    },
+    Case {
+        source: "setup state 1 2 in a;",
+        said: &[("1:15", "found the number 2", "IN")],
+        read: &[],
+    },
+    Case {
+        source: "a := if lev ! 1 then b;",
+        said: &[("1:13", "found `!`", "one of <, =")],
+        read: &[],
+    },
+    Case {
+        source: "!rest;",
+        said: &[("1:2", "found `rest`", "did you mean RESET?")],
         read: &[],
     },
     Case {
@@ -143,8 +203,8 @@ const CASES: &[Case] = &[
         ],
     },
     Case {
-        source: "s := begin_s f1 := f:add; end_s;",
-        said: &[("1:20", "a function inside a structure", "a node")],
+        source: "s := begin_s f:add; end_s;",
+        said: &[("1:14", "this function has no label", "label := F:TYPE;")],
         read: &["s := BEGIN_STRUCTURE\nEND_STRUCTURE;"],
     },
     Case {
@@ -182,7 +242,7 @@ const CASES: &[Case] = &[
     },
     Case {
         source: "a := vec 0,0,0 tab 1,1,1;",
-        said: &[("1:16", "found `tab`", "the PS 300 had this")],
+        said: &[("1:16", "found `tab`", "a vector x,y,z")],
         read: &[],
     },
 ];

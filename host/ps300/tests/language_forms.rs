@@ -117,7 +117,7 @@ const FORMS: &[(&str, &str)] = &[
         "a := IF CONDITIONAL_BIT 2 IS OFF THEN b;",
     ),
     // Data.
-    ("a := vec 0,0 1,1;", "a := VECTOR_LIST CONNECTED N=2 0,0,0 1,1,0;"),
+    ("a := vec 0,0 1,1;", "a := VECTOR_LIST CONNECTED N=2 0,0 1,1;"),
     (
         "a := vec p 0,0,0 l 1,1,1 i=.5;",
         "a := VECTOR_LIST ITEMIZED N=2 P 0,0,0 L 1,1,1 I=0.5;",
@@ -128,13 +128,192 @@ const FORMS: &[(&str, &str)] = &[
     ),
     (
         "a := vec sep block color n=2 0,0,0 1,1,1;",
-        "a := VECTOR_LIST SEPARATE N=2 0,0,0 1,1,1;",
+        "a := VECTOR_LIST SEPARATE BLOCK_NORMALIZED COLOR N=2 0,0,0 1,1,1;",
     ),
     ("a := vec dots;", "a := VECTOR_LIST DOTS N=0;"),
     ("a := char 'x';", "a := CHARACTERS 'x';"),
     (
         "a := char 1,2 step 2,0 'x';",
         "a := CHARACTERS 1,2,0 STEP 2,0 'x';",
+    ),
+    // Groups and housekeeping.
+    ("begin disp a; end;", "BEGIN; DISPLAY a; END;"),
+    ("begin; end;", "BEGIN; END;"),
+    (
+        "opt stru; a := nil; end opt;",
+        "OPTIMIZE STRUCTURE; a := NIL; END OPTIMIZE;",
+    ),
+    (
+        "reserve_working_storage 100000;",
+        "RESERVE_WORKING_STORAGE 100000;",
+    ),
+    ("com stat;", "COMMAND STATUS;"),
+    ("! reset;", "!RESET;"),
+    ("setup state 1,'a',fix(2) in f;", "SETUP STATE 1,'a',FIX(2) IN f;"),
+    ("setup state in in;", "SETUP STATE IN in;"),
+    ("pat list with dashes;", "PATTERN list WITH dashes;"),
+    ("send vl(list) to <1>a;", "SEND VL(list) TO <1>a;"),
+    ("send vl(dots) to <1>a;", "SEND VL(dots) TO <1>a;"),
+    ("send vl(dots n=0) to <1>a;", "SEND VL(DOTS N=0) TO <1>a;"),
+    (
+        "send vl(p 0,0 l 1,1 i=.5) to <1>a;",
+        "SEND VL(ITEMIZED N=2 P 0,0 L 1,1 I=0.5) TO <1>a;",
+    ),
+    (
+        "send vl(0,0,0 1,1) to <1>a;",
+        "SEND VL(CONNECTED N=2 0,0,0 1,1,0) TO <1>a;",
+    ),
+    // Attributes and conditions.
+    (
+        "a := eye back 5 from screen area 2 wide;",
+        "a := EYE BACK 5 FROM SCREEN AREA 2 WIDE;",
+    ),
+    (
+        "a := eye back 5 left 1 down 2 from screen 2 wide front=1 back=9 then b;",
+        "a := EYE BACK 5 LEFT 1 DOWN 2 FROM SCREEN AREA 2 WIDE FRONT BOUNDARY=1 BACK BOUNDARY=9 APPLIED TO b;",
+    ),
+    (
+        "a := eye back 5 right -1 from screen 2 wide;",
+        "a := EYE BACK 5 LEFT 1 FROM SCREEN AREA 2 WIDE;",
+    ),
+    (
+        "a := set pick loc=0,0 .1,.1;",
+        "a := SET PICKING LOCATION=0,0 0.1,0.1;",
+    ),
+    ("a := set lev to 3;", "a := SET LEVEL_OF_DETAIL TO 3;"),
+    ("a := set lev 3;", "a := SET LEVEL_OF_DETAIL TO 3;"),
+    (
+        "a := incr lev then b;",
+        "a := INCREMENT LEVEL_OF_DETAIL APPLIED TO b;",
+    ),
+    (
+        "a := decr lev then b;",
+        "a := DECREMENT LEVEL_OF_DETAIL APPLIED TO b;",
+    ),
+    ("a := if lev = 1 then b;", "a := IF LEVEL_OF_DETAIL = 1 THEN b;"),
+    ("a := if lev<1 then b;", "a := IF LEVEL_OF_DETAIL < 1 THEN b;"),
+    (
+        "a := if lev < = 1 then b;",
+        "a := IF LEVEL_OF_DETAIL <= 1 THEN b;",
+    ),
+    ("a := if lev>-1 then b;", "a := IF LEVEL_OF_DETAIL > -1 THEN b;"),
+    ("a := if lev>=1 appl b;", "a := IF LEVEL_OF_DETAIL >= 1 THEN b;"),
+    ("a := if lev<>1 then b;", "a := IF LEVEL_OF_DETAIL <> 1 THEN b;"),
+    ("a := set rate 30 10;", "a := SET RATE 30 10;"),
+    ("a := set rate 30 10 5;", "a := SET RATE 30 10 5;"),
+    (
+        "a := set rate 30 10 off then b;",
+        "a := SET RATE 30 10 OFF APPLIED TO b;",
+    ),
+    (
+        "a := set rate 30 10 on 5 then b;",
+        "a := SET RATE 30 10 ON 5 APPLIED TO b;",
+    ),
+    ("a := set rate ext;", "a := SET RATE EXTERNAL;"),
+    ("a := if phase is off then b;", "a := IF PHASE IS OFF THEN b;"),
+    ("a := set contrast .5;", "a := SET CONTRAST TO 0.5;"),
+    ("a := set disp 0 off;", "a := SET DISPLAY 0 OFF;"),
+    ("a := set plot on;", "a := SET PLOTTER ON;"),
+    ("a := set line 85;", "a := SET LINE_TEXTURE 85;"),
+    (
+        "a := set line around 85;",
+        "a := SET LINE_TEXTURE AROUND_CORNERS 85;",
+    ),
+    ("a := set color ble .5;", "a := SET COLOR BLENDING 0.5;"),
+    ("a := xform matrix then b;", "a := XFORM MATRIX APPLIED TO b;"),
+    ("a := xform vec then b;", "a := XFORM VECTOR_LIST APPLIED TO b;"),
+    ("a := char sca 2 then b;", "a := CHARACTER SCALE 2 APPLIED TO b;"),
+    ("a := characters scale 2,3;", "a := CHARACTER SCALE 2,3;"),
+    ("a := char rot 90;", "a := CHARACTER ROTATE 90;"),
+    (
+        "a := char font font then font;",
+        "a := CHARACTER FONT font APPLIED TO font;",
+    ),
+    ("a := stan font;", "a := STANDARD FONT;"),
+    ("a := text size .1 then b;", "a := TEXT SIZE 0.1 APPLIED TO b;"),
+    (
+        "a := surface_rend appl b;",
+        "a := SURFACE_RENDERING APPLIED TO b;",
+    ),
+    ("a := solid_rend then b;", "a := SOLID_RENDERING APPLIED TO b;"),
+    ("a := sect then b;", "a := SECTIONING_PLANE APPLIED TO b;"),
+    // More data.
+    (
+        "a := vec tab p 0,0 l 1,1 t=9;",
+        "a := VECTOR_LIST TABULATED N=2 P 0,0 L 1,1 T=9;",
+    ),
+    (
+        "a := labels 0,0 'x' 1,1,1 'y' 'z';",
+        "a := LABELS 0,0,0 'x' 1,1,1 'yz';",
+    ),
+    ("a := labels;", "a := LABELS;"),
+    (
+        "a := pattern 3 1,2 1 around nomatch length=.5;",
+        "a := PATTERN 3 1 2 1 AROUND_CORNERS NOMATCH LENGTH 0.5;",
+    ),
+    ("a := pat 1 1 length 2;", "a := PATTERN 1 1 MATCH LENGTH 2;"),
+    (
+        "a := bspline order=3 0,0 1,1 2,0 chords=9;",
+        "a := BSPLINE ORDER=3 OPEN NONPERIODIC N=3 VERTICES= 0,0 1,1 2,0 CHORDS=9;",
+    ),
+    (
+        "a := bspline order=2 closed n=2 vertices=0,0,1 1,1 knots=0,1 2 chords=9;",
+        "a := BSPLINE ORDER=2 CLOSED PERIODIC N=2 VERTICES= 0,0,1 1,1,0 KNOTS= 0 1 2 CHORDS=9;",
+    ),
+    (
+        "a := rat bspline chords=9 order=2 0,0,1 1,1,2 0 1 2;",
+        "a := RATIONAL BSPLINE ORDER=2 OPEN NONPERIODIC N=2 VERTICES= 0,0,1 1,1,2 KNOTS= 0 1 2 CHORDS=9;",
+    ),
+    (
+        "a := rat bspline order=2 0,0,1,.5 1,1,2,1 chords=9;",
+        "a := RATIONAL BSPLINE ORDER=2 OPEN NONPERIODIC N=2 VERTICES= 0,0,1,0.5 1,1,2,1 CHORDS=9;",
+    ),
+    (
+        "a := poly order=1 coefficients=1,0 0,1 chords=4;",
+        "a := POLYNOMIAL ORDER=1 COEFFICIENTS= 1,0 0,1 CHORDS=4;",
+    ),
+    (
+        "a := rat poly order=0 1,0,0,1 chords=1;",
+        "a := RATIONAL POLYNOMIAL ORDER=0 COEFFICIENTS= 1,0,0,1 CHORDS=1;",
+    ),
+    (
+        "a := poly 0,0 1,0 s 1,1,1 n 0,0,1;",
+        "a := POLYGON 0,0,0 1,0,0 S 1,1,1 N 0,0,1;",
+    ),
+    (
+        "a := polyg with attr b with outline 60 coplanar 0,0 1,0 1,1;",
+        "a := POLYGON WITH ATTRIBUTES b WITH OUTLINE 60 COPLANAR 0,0,0 1,0,0 1,1,0;",
+    ),
+    (
+        "a := polygon coplanar with outline 60 attributes b 0,0 1,0 1,1;",
+        "a := POLYGON WITH ATTRIBUTES b WITH OUTLINE 60 COPLANAR 0,0,0 1,0,0 1,1,0;",
+    ),
+    (
+        "a := poly 0,0 1,0 1,1 poly coplanar 0,0 1,0 1,1;",
+        "a := POLYGON 0,0,0 1,0,0 1,1,0\n    POLYGON COPLANAR 0,0,0 1,0,0 1,1,0;",
+    ),
+    ("a := attr;", "a := ATTRIBUTES;"),
+    (
+        "a := attr color 120 opaque .5 diffuse .75 specular 5 and color 0,0,.5;",
+        "a := ATTRIBUTES COLOR 120,1,1 OPAQUE 0.5 DIFFUSE 0.75 SPECULAR 5 AND COLOR 0,0,0.5;",
+    ),
+    (
+        "a := illum 0,0,1 ambient .2 color 60,.5;",
+        "a := ILLUMINATION 0,0,1 COLOR 60,0.5,1 AMBIENT 0.2;",
+    ),
+    (
+        "a := begin_f c[65]: n=3 p 0,0 l .5,1 1,0; c [32]:; end_f;",
+        "a := BEGIN_FONT\n    C[65]: N=3 P 0,0 L 0.5,1 L 1,0;\n    C[32]: N=0;\nEND_FONT;",
+    ),
+    ("a := copy b;", "a := COPY b;"),
+    (
+        "a := copy start start=2, count=3;",
+        "a := COPY start START=2 COUNT=3;",
+    ),
+    ("a := copy b count=3;", "a := COPY b COUNT=3;"),
+    (
+        "s := begin_s f := f:route(3); g := f:add; end_s;",
+        "s := BEGIN_STRUCTURE\n    f := F:route(3);\n    g := F:add;\nEND_STRUCTURE;",
     ),
     // Layout, comments, words that are keywords elsewhere.
     (";;\n  disp{ here; }a\n;;", "DISPLAY a;"),
@@ -157,7 +336,7 @@ fn each_form_is_printed_canonically() {
         let (commands, diagnostics) = parse(written);
         assert!(diagnostics.is_empty(), "{written}: {diagnostics:#?}");
         let printed: Vec<String> = commands.iter().map(|command| print(&command.what)).collect();
-        assert_eq!(printed, [*canonical], "{written}");
+        assert_eq!(printed.join(" "), *canonical, "{written}");
     }
 }
 
@@ -166,7 +345,8 @@ fn canonical_text_is_its_own_canonical_text() {
     for (_, canonical) in FORMS {
         let (commands, diagnostics) = parse(canonical);
         assert!(diagnostics.is_empty(), "{canonical}: {diagnostics:#?}");
-        assert_eq!(print(&commands[0].what), *canonical);
+        let printed: Vec<String> = commands.iter().map(|command| print(&command.what)).collect();
+        assert_eq!(printed.join(" "), *canonical);
     }
 }
 
@@ -182,11 +362,11 @@ arm := BEGIN_STRUCTURE
         INSTANCE OF line;
     END_STRUCTURE;
     long := VECTOR_LIST CONNECTED N=5
-        0,0,0
-        1,1,0
-        2,2,0
-        3,3,0
-        4,4,0;
+        0,0
+        1,1
+        2,2
+        3,3
+        4,4;
 END_STRUCTURE;";
     let (commands, diagnostics) = parse(written);
     assert!(diagnostics.is_empty(), "{diagnostics:#?}");

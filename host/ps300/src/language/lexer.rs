@@ -79,6 +79,9 @@ impl<'s> Lexer<'s> {
             ')' => Mark::Close,
             '=' => Mark::Equals,
             '*' => Mark::Star,
+            '[' => Mark::OpenBracket,
+            ']' => Mark::CloseBracket,
+            '!' => Mark::Bang,
             _ => {
                 self.take(first.len_utf8());
                 return TokenKind::Stray(first);

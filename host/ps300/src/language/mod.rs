@@ -30,3 +30,4 @@ pub use node::{
 };
 pub use parser::parse;
 pub use print::{literal, print};
+pub use words::KEYWORDS;

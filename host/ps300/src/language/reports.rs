@@ -13,6 +13,11 @@ pub(super) struct Reports {
 }
 
 impl Reports {
+    /// Whether what is said from now on is only counted, so that thinking of a hint is wasted.
+    pub(super) fn is_full(&self) -> bool {
+        self.kept.len() >= DIAGNOSTICS_MAX
+    }
+
     pub(super) fn push(&mut self, diagnostic: Diagnostic) {
         if self.kept.len() < DIAGNOSTICS_MAX {
             self.kept.push(diagnostic);

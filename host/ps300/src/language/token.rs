@@ -34,6 +34,9 @@ pub(super) enum Mark {
     Close,
     Equals,
     Star,
+    OpenBracket,
+    CloseBracket,
+    Bang,
 }
 
 impl Mark {
@@ -49,6 +52,9 @@ impl Mark {
             Self::Close => ")",
             Self::Equals => "=",
             Self::Star => "*",
+            Self::OpenBracket => "[",
+            Self::CloseBracket => "]",
+            Self::Bang => "!",
         }
     }
 }

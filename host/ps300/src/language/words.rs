@@ -33,6 +33,9 @@ impl Word {
 macro_rules! words {
     ($($constant:ident = $full:literal $($least:literal)?;)*) => {
         $(pub(super) const $constant: Word = words!(@one $full $($least)?);)*
+
+        /// Every keyword of the language with the number of letters that are enough of it.
+        pub const KEYWORDS: &[(&str, usize)] = &[$(($constant.full, $constant.least)),*];
     };
     (@one $full:literal $least:literal) => { Word::new($full, $least) };
     (@one $full:literal) => { Word::whole($full) };
@@ -55,6 +58,15 @@ words! {
     FOLLOW = "FOLLOW" 3;
     PREFIX = "PREFIX" 3;
     INITIALIZE = "INITIALIZE" 4;
+    STATE = "STATE";
+    BEGIN = "BEGIN";
+    END = "END";
+    OPTIMIZE = "OPTIMIZE" 3;
+    STRUCTURE = "STRUCTURE" 4;
+    RESERVE_WORKING_STORAGE = "RESERVE_WORKING_STORAGE";
+    COMMAND = "COMMAND" 3;
+    STATUS = "STATUS" 4;
+    RESET = "RESET";
     CONNECTIONS = "CONNECTIONS" 4;
     NAMES = "NAMES" 4;
     // What a name can denote.
@@ -74,11 +86,31 @@ words! {
     FIELD_OF_VIEW = "FIELD_OF_VIEW" 5;
     FOV = "FOV";
     WINDOW = "WINDOW";
+    EYE = "EYE";
     VIEWPORT = "VIEWPORT" 4;
     SET = "SET";
     IF = "IF";
+    INCREMENT = "INCREMENT" 4;
+    DECREMENT = "DECREMENT" 4;
+    STANDARD = "STANDARD" 4;
+    TEXT = "TEXT";
+    XFORM = "XFORM";
+    SURFACE_RENDERING = "SURFACE_RENDERING" 12;
+    SOLID_RENDERING = "SOLID_RENDERING" 10;
+    SECTIONING_PLANE = "SECTIONING_PLANE" 4;
     VECTOR_LIST = "VECTOR_LIST" 3;
     CHARACTERS = "CHARACTERS" 4;
+    LABELS = "LABELS";
+    RATIONAL = "RATIONAL" 3;
+    BSPLINE = "BSPLINE";
+    POLYNOMIAL = "POLYNOMIAL" 4;
+    POLYGON = "POLYGON" 4;
+    ATTRIBUTES = "ATTRIBUTES" 4;
+    ILLUMINATION = "ILLUMINATION" 5;
+    PATTERN = "PATTERN" 3;
+    BEGIN_FONT = "BEGIN_FONT" 7;
+    END_FONT = "END_FONT" 5;
+    COPY = "COPY";
     // After SET or IF.
     COLOR = "COLOR";
     INTENSITY = "INTENSITY" 5;
@@ -87,25 +119,73 @@ words! {
     IDENTIFIER = "IDENTIFIER" 2;
     CONDITIONAL_BIT = "CONDITIONAL_BIT" 4;
     COND_BIT = "COND_BIT";
+    LOCATION = "LOCATION" 3;
+    LEVEL_OF_DETAIL = "LEVEL_OF_DETAIL" 3;
+    RATE = "RATE";
+    EXTERNAL = "EXTERNAL" 3;
+    PHASE = "PHASE";
+    CONTRAST = "CONTRAST";
+    PLOTTER = "PLOTTER" 4;
+    LINE_TEXTURE = "LINE_TEXTURE" 4;
+    BLENDING = "BLENDING" 3;
     ON = "ON";
     OFF = "OFF";
+    // After EYE, TEXT, STANDARD, XFORM, CHARACTER.
+    LEFT = "LEFT";
+    RIGHT = "RIGHT";
+    DOWN = "DOWN";
+    SCREEN = "SCREEN";
+    AREA = "AREA";
+    WIDE = "WIDE";
+    FONT = "FONT";
+    SIZE = "SIZE";
+    MATRIX = "MATRIX";
     // Vector lists and characters.
     CONNECTED = "CONNECTED" 4;
     SEPARATE = "SEPARATE" 3;
     DOTS = "DOTS" 3;
     ITEMIZED = "ITEMIZED" 4;
+    TABULATED = "TABULATED" 3;
     BLOCK_NORMALIZED = "BLOCK_NORMALIZED" 5;
     N = "N";
     P = "P";
     L = "L";
     I = "I";
+    T = "T";
+    S = "S";
+    C = "C";
     STEP = "STEP";
+    // Curves, patterns, copies.
+    ORDER = "ORDER";
+    OPEN = "OPEN";
+    CLOSED = "CLOSED";
+    NONPERIODIC = "NONPERIODIC";
+    PERIODIC = "PERIODIC";
+    VERTICES = "VERTICES";
+    KNOTS = "KNOTS";
+    CHORDS = "CHORDS";
+    COEFFICIENTS = "COEFFICIENTS";
+    AROUND_CORNERS = "AROUND_CORNERS" 6;
+    MATCH = "MATCH";
+    NOMATCH = "NOMATCH";
+    LENGTH = "LENGTH";
+    START = "START";
+    COUNT = "COUNT";
+    // Faces and lights.
+    OUTLINE = "OUTLINE";
+    COPLANAR = "COPLANAR";
+    OPAQUE = "OPAQUE";
+    DIFFUSE = "DIFFUSE";
+    SPECULAR = "SPECULAR";
+    AND = "AND";
+    AMBIENT = "AMBIENT";
     // Values.
     TRUE = "TRUE";
     FALSE = "FALSE";
     FIX = "FIX";
     CHAR = "CHAR";
     VALUE = "VALUE";
+    VL = "VL";
     V2D = "V2D";
     V3D = "V3D";
     V4D = "V4D";
@@ -137,7 +217,7 @@ words! {
 }
 
 /// What a command can begin with, beside a name and `:=`.
-pub(super) const COMMANDS: [Word; 16] = [
+pub(super) const COMMANDS: [Word; 22] = [
     CONNECT,
     DISCONNECT,
     SEND,
@@ -152,12 +232,18 @@ pub(super) const COMMANDS: [Word; 16] = [
     FOLLOW,
     PREFIX,
     INITIALIZE,
+    PATTERN,
+    BEGIN,
+    END,
+    OPTIMIZE,
+    RESERVE_WORKING_STORAGE,
+    COMMAND,
     BEGIN_STRUCTURE,
     END_STRUCTURE,
 ];
 
 /// What can stand after `:=`, beside `F:`.
-pub(super) const NODES: [Word; 18] = [
+pub(super) const NODES: [Word; 37] = [
     NIL,
     INSTANCE,
     BEGIN_STRUCTURE,
@@ -171,58 +257,57 @@ pub(super) const NODES: [Word; 18] = [
     LOOK,
     FIELD_OF_VIEW,
     WINDOW,
+    EYE,
     VIEWPORT,
     SET,
     IF,
+    INCREMENT,
+    DECREMENT,
+    STANDARD,
+    TEXT,
+    XFORM,
+    SURFACE_RENDERING,
+    SOLID_RENDERING,
+    SECTIONING_PLANE,
     VECTOR_LIST,
     CHARACTERS,
+    LABELS,
+    RATIONAL,
+    BSPLINE,
+    POLYNOMIAL,
+    POLYGON,
+    ATTRIBUTES,
+    ILLUMINATION,
+    PATTERN,
+    BEGIN_FONT,
+    COPY,
 ];
 
 /// What can stand after SET.
-pub(super) const ATTRIBUTES: [Word; 5] = [COLOR, INTENSITY, DEPTH_CLIPPING, PICKING, CONDITIONAL_BIT];
-
-/// Words of the PS 300 that are read nowhere here. Named so that a message can tell them from typing errors.
-const ABSENT: [Word; 28] = [
-    Word::new("BEGIN", 5),
-    Word::new("OPTIMIZE", 4),
-    Word::whole("RESERVE_WORKING_STORAGE"),
-    Word::new("COMMAND", 3),
-    Word::whole("EYE"),
-    Word::new("LABELS", 5),
-    Word::new("PATTERN", 3),
-    Word::whole("BSPLINE"),
-    Word::new("POLYNOMIAL", 5),
-    Word::new("RATIONAL", 3),
-    Word::new("POLYGON", 4),
-    Word::new("ATTRIBUTES", 4),
-    Word::new("ILLUMINATION", 5),
-    Word::new("SURFACE_RENDERING", 12),
-    Word::new("SOLID_RENDERING", 10),
-    Word::new("SECTIONING_PLANE", 7),
-    Word::whole("COPY"),
-    Word::whole("XFORM"),
-    Word::new("INCREMENT", 4),
-    Word::new("DECREMENT", 4),
-    Word::new("BEGIN_FONT", 7),
-    Word::new("STANDARD", 3),
-    Word::whole("RATE"),
-    Word::new("LEVEL_OF_DETAIL", 3),
-    Word::whole("CONTRAST"),
-    Word::new("PLOTTER", 4),
-    Word::new("LINE_TEXTURE", 4),
-    Word::new("TABULATED", 3),
+pub(super) const ATTRIBUTE_WORDS: [Word; 11] = [
+    COLOR,
+    INTENSITY,
+    DEPTH_CLIPPING,
+    PICKING,
+    CONDITIONAL_BIT,
+    LEVEL_OF_DETAIL,
+    RATE,
+    CONTRAST,
+    DISPLAY,
+    PLOTTER,
+    LINE_TEXTURE,
 ];
+
+/// What can stand after IF.
+pub(super) const CONDITIONS: [Word; 3] = [CONDITIONAL_BIT, LEVEL_OF_DETAIL, PHASE];
 
 /// Two differences are a typing error, more are another word. Our choice.
 const DISTANCE_MAX: usize = 2;
 /// Nothing longer than the longest keyword with two letters too many is compared.
-const COMPARED_CHARACTERS_MAX: usize = 17;
+const COMPARED_CHARACTERS_MAX: usize = 25;
 
 /// What to tell somebody who wrote `written` where one of `known` belongs.
 pub(super) fn hint(written: &str, known: &[Word]) -> Option<String> {
-    if ABSENT.iter().any(|word| word.matches(written)) {
-        return Some("the PS 300 had this, dialrig does not".to_owned());
-    }
     if written.chars().count() > COMPARED_CHARACTERS_MAX {
         return None;
     }

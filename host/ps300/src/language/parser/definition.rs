@@ -1,6 +1,6 @@
 //! What stands after `:=`, and structures.
 //! Source: `docs/protocols/ps300.md`, sections "Structure and display" and "Network commands". That a
-//! structure may stand inside another is this project's reading.
+//! structure may stand inside another is this project's reading, and functions inside structures are its own.
 
 use super::{Parsed, Parser};
 use crate::language::token::{Mark, TokenKind};
@@ -11,14 +11,21 @@ use crate::language::{Definition, Diagnostic, Member, Name, Node};
 /// of any stack; nothing drawn by hand comes near it. Our choice.
 const STRUCTURE_DEPTH_MAX: usize = 32;
 
-impl Parser<'_> {
+type Form<'s> = fn(&mut Parser<'s>) -> Parsed<Node>;
+
+impl<'s> Parser<'s> {
     /// Everything after `:=`.
     pub(super) fn definition(&mut self) -> Parsed<Definition> {
-        if !self.is_word_before(words::FUNCTION, Mark::Colon) {
-            return Ok(Definition::Node(
-                self.node("what the name denotes: F:TYPE, or a node such as ROTATE")?,
-            ));
+        if self.is_word_before(words::FUNCTION, Mark::Colon) {
+            let (function, size) = self.function()?;
+            return Ok(Definition::Function { function, size });
         }
+        let node = self.node("what the name denotes: F:TYPE, or a node such as ROTATE")?;
+        Ok(Definition::Node(node))
+    }
+
+    /// `F:TYPE` or `F:TYPE(k)`.
+    fn function(&mut self) -> Parsed<(Name, Option<u16>)> {
         self.advance();
         self.advance();
         let function = self.name("the type of a function, as in F:ADD")?;
@@ -27,7 +34,7 @@ impl Parser<'_> {
             size = Some(self.integer(1..=i64::from(u16::MAX), "the number of inputs or outputs")? as u16);
             self.expect(Mark::Close)?;
         }
-        Ok(Definition::Function { function, size })
+        Ok((function, size))
     }
 
     fn node(&mut self, expected: &str) -> Parsed<Node> {
@@ -47,13 +54,67 @@ impl Parser<'_> {
         if self.is_word(words::BEGIN_STRUCTURE) {
             return self.structure();
         }
-        if self.accept_word(words::VECTOR_LIST) {
-            return Ok(Node::VectorList(self.vector_list()?));
+        if self.accept_word(words::COPY) {
+            return self.copy();
         }
-        if self.accept_word(words::CHARACTERS) {
-            return Ok(Node::Characters(self.characters()?));
+        if let Some(node) = self.data()? {
+            return Ok(node);
         }
         Err(self.unknown_word(expected, &words::NODES))
+    }
+
+    /// A data node, if the word here begins one.
+    fn data(&mut self) -> Parsed<Option<Node>> {
+        let forms: [(Word, Form<'s>); 10] = [
+            (words::VECTOR_LIST, |parser| {
+                parser.vector_list(Mark::Semicolon).map(Node::VectorList)
+            }),
+            (words::CHARACTERS, |parser| {
+                parser.characters().map(Node::Characters)
+            }),
+            (words::LABELS, |parser| parser.labels().map(Node::Labels)),
+            (words::RATIONAL, Self::rational_curve),
+            (words::BSPLINE, |parser| parser.bspline(false).map(Node::BSpline)),
+            (words::ATTRIBUTES, |parser| {
+                parser.attributes().map(Node::Attributes)
+            }),
+            (words::ILLUMINATION, |parser| {
+                parser.illumination().map(Node::Illumination)
+            }),
+            (words::PATTERN, |parser| parser.pattern().map(Node::Pattern)),
+            (words::POLYGON, |parser| parser.polygons().map(Node::Polygons)),
+            (words::POLYNOMIAL, |parser| {
+                parser.polynomial(false).map(Node::Polynomial)
+            }),
+        ];
+        if self.is_word_before_one_of(words::POLYNOMIAL, &[words::ORDER]) {
+            self.advance(); // `POLY` is enough of either word; ORDER after it tells them apart.
+            return self.polynomial(false).map(|curve| Some(Node::Polynomial(curve)));
+        }
+        if self.is_word(words::BEGIN_FONT) {
+            return self.font().map(|font| Some(Node::Font(font)));
+        }
+        let Some(&(_, form)) = forms.iter().find(|(word, _)| self.is_word(*word)) else {
+            return Ok(None);
+        };
+        self.advance();
+        form(self).map(Some)
+    }
+
+    /// Everything after COPY.
+    fn copy(&mut self) -> Parsed<Node> {
+        let of = self.name("the name of what is copied")?;
+        let (mut start, mut count) = (None, None);
+        loop {
+            let positive = 1..=i64::from(u32::MAX);
+            if self.accept_word_equals(words::START) {
+                start = Some(self.integer(positive, "the first element")? as u32);
+            } else if self.accept_word_equals(words::COUNT) {
+                count = Some(self.integer(positive, "how many elements")? as u32);
+            } else if start.is_none() || !self.accept(Mark::Comma) {
+                return Ok(Node::Copy { of, start, count });
+            }
+        }
     }
 
     /// `APPLIED TO name`, `THEN name` or nothing.
@@ -122,11 +183,16 @@ impl Parser<'_> {
             label = Some(name);
         }
         if self.is_word_before(words::FUNCTION, Mark::Colon) {
-            let diagnostic = Diagnostic::error(self.current.at, "a function inside a structure");
-            return Err(diagnostic
-                .expecting("a node")
-                .hinting("functions are made outside structures")
-                .into());
+            if label.is_none() {
+                let diagnostic = Diagnostic::error(self.current.at, "this function has no label");
+                return Err(diagnostic
+                    .expecting("`label := F:TYPE;`")
+                    .hinting("without one nothing could be connected to it")
+                    .into());
+            }
+            let (function, size) = self.function()?;
+            let node = Node::Function { function, size };
+            return Ok(Member { label, node });
         }
         let node = self.node("an element of the structure, or END_STRUCTURE")?;
         Ok(Member { label, node })

@@ -1,7 +1,8 @@
 //! Numbers, points, texts and values.
 //! Source: `docs/protocols/ps300.md`, section "Message types". Ours, where the record is silent: commas
 //! inside a matrix may be left out; text may be several quoted pieces and `CHAR(n)` written after one
-//! another, which are joined; `M4X3(…)` is the literal of the kind LOOKAT makes.
+//! another, which are joined; `M4X3(…)` is the literal of the kind LOOKAT makes; `VL(…)` holds either the
+//! name of a vector list or what could follow VECTOR_LIST, so that `VL(dots)` is a name and `VL(dots N=0)` is not.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -11,7 +12,7 @@ use glam::{DAffine3, DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
 use super::{Fault, Parsed, Parser};
 use crate::language::token::{Mark, TokenKind, cut};
 use crate::language::words::{self, Word};
-use crate::language::{Boundaries, Diagnostic, Payload, Range, Text};
+use crate::language::{Boundaries, Diagnostic, Payload, Range, SurfaceColor, Text};
 use crate::value::Value;
 
 type Literal = fn(&[f64]) -> Value;
@@ -56,10 +57,30 @@ impl Parser<'_> {
             self.expect(Mark::Close)?;
             return Ok(Payload::Variable(name));
         }
+        if self.is_word_before(words::VL, Mark::Open) {
+            self.advance();
+            self.advance();
+            if self.following.kind == TokenKind::Mark(Mark::Close)
+                && matches!(self.current.kind, TokenKind::Word(_))
+            {
+                let name = self.name("the name of a vector list")?;
+                self.advance();
+                return Ok(Payload::VectorsOf(name));
+            }
+            return Ok(Payload::Value(self.vectors_in_parentheses()?));
+        }
         Ok(Payload::Value(self.value()?))
     }
 
-    fn value(&mut self) -> Parsed<Value> {
+    /// A vector list written out, after `VL(`.
+    fn vectors_in_parentheses(&mut self) -> Parsed<Value> {
+        let list = self.vector_list(Mark::Close)?;
+        self.expect(Mark::Close)?;
+        Ok(list.into())
+    }
+
+    /// A literal.
+    pub(super) fn value(&mut self) -> Parsed<Value> {
         if self.at_text() {
             return Ok(Value::String(self.text()?));
         }
@@ -71,6 +92,11 @@ impl Parser<'_> {
             return Ok(Value::Integer(
                 self.in_parentheses(range, "a whole number")? as i32
             ));
+        }
+        if self.is_word_before(words::VL, Mark::Open) {
+            self.advance();
+            self.advance();
+            return self.vectors_in_parentheses();
         }
         if let Some(&(_, count, make)) = LITERALS.iter().find(|(word, ..)| self.is_word(*word)) {
             self.advance();
@@ -85,7 +111,14 @@ impl Parser<'_> {
                 return Ok(Value::Boolean(value));
             }
         }
-        let known = [words::TRUE, words::FALSE, words::FIX, words::CHAR, words::VALUE];
+        let known = [
+            words::TRUE,
+            words::FALSE,
+            words::FIX,
+            words::CHAR,
+            words::VALUE,
+            words::VL,
+        ];
         Err(self.unknown_word(
             "a value: a number, TRUE, FALSE, FIX(n), 'text', V3D(x,y,z), … or VALUE(v)",
             &known,
@@ -186,6 +219,16 @@ impl Parser<'_> {
         let x = self.number(what)?;
         self.expect(Mark::Comma)?;
         Ok(DVec2::new(x, self.number(what)?))
+    }
+
+    /// `h[,s[,i]]`; s and i are 1 unless written.
+    pub(super) fn surface_color(&mut self) -> Parsed<SurfaceColor> {
+        let (color, _) = self.components(1, DVec3::ONE, "a hue in degrees")?;
+        Ok(SurfaceColor {
+            hue_deg: color.x,
+            saturation: color.y,
+            intensity: color.z,
+        })
     }
 
     /// As many numbers as `into` holds, commas between them allowed.

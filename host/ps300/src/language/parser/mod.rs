@@ -4,11 +4,16 @@
 //! one function a form. Recovery is at the next `;`, or before a line that begins with `name :=`, so
 //! that one forgotten semicolon costs one command.
 
-mod data;
+mod attribute;
+mod characters;
+mod curve;
 mod definition;
+mod face;
 mod literal;
 mod operation;
 mod statement;
+mod vectors;
+mod viewing;
 
 use super::lexer::Lexer;
 use super::reports::Reports;
@@ -33,10 +38,7 @@ pub fn parse(source: &str) -> (Vec<Located<Command>>, Vec<Diagnostic>) {
         }
         let at = parser.current.at;
         let taken = parser.taken;
-        match parser
-            .command()
-            .and_then(|command| parser.finish().map(|()| command))
-        {
+        match parser.command().and_then(|command| parser.ended(command)) {
             Ok(what) => commands.push(Located { at, what }),
             Err(fault) => parser.recover(fault, taken),
         }
@@ -113,7 +115,7 @@ impl<'s> Parser<'s> {
     /// As `unexpected`, for a place where one of some keywords belongs.
     fn unknown_word(&self, expected: impl Into<String>, known: &[Word]) -> Fault {
         match (self.unexpected(expected), self.current.kind) {
-            (Fault::Found(mut diagnostic), TokenKind::Word(word)) => {
+            (Fault::Found(mut diagnostic), TokenKind::Word(word)) if !self.reports.is_full() => {
                 diagnostic.hint = words::hint(word, known);
                 Fault::Found(diagnostic)
             }
@@ -148,6 +150,33 @@ impl<'s> Parser<'s> {
     /// Whether `word` stands here and `mark` directly after it.
     fn is_word_before(&self, word: Word, mark: Mark) -> bool {
         self.is_word(word) && self.following.kind == TokenKind::Mark(mark)
+    }
+
+    /// Whether `word` stands here and one of `next` directly after it.
+    fn is_word_before_one_of(&self, word: Word, next: &[Word]) -> bool {
+        let TokenKind::Word(following) = self.following.kind else {
+            return false;
+        };
+        self.is_word(word) && next.iter().any(|next| next.matches(following))
+    }
+
+    /// Passes `word=`, if that stands here.
+    fn accept_word_equals(&mut self, word: Word) -> bool {
+        let found = self.is_word_before(word, Mark::Equals);
+        if found {
+            self.advance();
+            self.advance();
+        }
+        found
+    }
+
+    /// Passes a mark such as P, which a number must follow: on a line by itself it may be a name.
+    fn accept_word_before_number(&mut self, word: Word) -> bool {
+        let found = self.is_word(word) && matches!(self.following.kind, TokenKind::Number(_));
+        if found {
+            self.advance();
+        }
+        found
     }
 
     fn accept_word(&mut self, word: Word) -> bool {
@@ -198,6 +227,16 @@ impl<'s> Parser<'s> {
             names.push(self.name(what)?);
         }
         Ok(names)
+    }
+
+    /// The command, once its semicolon is passed; BEGIN need have none.
+    fn ended(&mut self, command: Command) -> Parsed<Command> {
+        if command == Command::BeginGroup {
+            self.accept(Mark::Semicolon);
+        } else {
+            self.finish()?;
+        }
+        Ok(command)
     }
 
     /// The semicolon after a command or a member.

@@ -1,17 +1,17 @@
-//! Operation nodes: transforms, attributes, conditions.
-//! Source: `docs/protocols/ps300.md`, sections "Modelling transforms and viewing" and "Attributes,
-//! conditionals".
+//! Operation nodes by their first word, and the transforms among them.
+//! Source: `docs/protocols/ps300.md`, section "Modelling transforms and viewing".
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::{Parsed, Parser};
-use crate::language::token::{Mark, TokenKind};
+use crate::language::token::Mark;
 use crate::language::words::{self, Word};
-use crate::language::{Axis, Diagnostic, Operation};
+use crate::language::{Axis, Operation};
 
 use super::literal::{matrix2, matrix3, matrix4, matrix4x3};
 
-const ON_OFF: [(Word, bool); 2] = [(words::ON, true), (words::OFF, false)];
+/// What makes CHARACTERS an operation on the texts below instead of a text.
+const CHARACTER_WORDS: [Word; 3] = [words::SCALE, words::ROTATE, words::FONT];
 
 type Form<'s> = fn(&mut Parser<'s>) -> Parsed<Operation>;
 
@@ -26,7 +26,11 @@ impl<'s> Parser<'s> {
 
     /// An operation, if the word here begins one.
     pub(super) fn operation(&mut self) -> Parsed<Option<Operation>> {
-        let forms: [(Word, Form<'s>); 14] = [
+        if self.is_word_before_one_of(words::CHARACTERS, &CHARACTER_WORDS) {
+            self.advance();
+            return self.character_operation().map(Some);
+        }
+        let forms: [(Word, Form<'s>); 23] = [
             (words::ROTATE, Self::rotate),
             (words::TRANSLATE, Self::translate),
             (words::SCALE, Self::scale),
@@ -46,9 +50,37 @@ impl<'s> Parser<'s> {
             (words::FIELD_OF_VIEW, Self::field_of_view),
             (words::FOV, Self::field_of_view),
             (words::WINDOW, Self::window),
+            (words::EYE, Self::eye),
             (words::VIEWPORT, Self::viewport),
             (words::SET, Self::set),
             (words::IF, Self::condition),
+            (words::INCREMENT, |parser| {
+                parser.expect_word(words::LEVEL_OF_DETAIL)?;
+                Ok(Operation::IncrementLevelOfDetail)
+            }),
+            (words::DECREMENT, |parser| {
+                parser.expect_word(words::LEVEL_OF_DETAIL)?;
+                Ok(Operation::DecrementLevelOfDetail)
+            }),
+            (words::STANDARD, |parser| {
+                parser.expect_word(words::FONT)?;
+                Ok(Operation::StandardFont)
+            }),
+            (words::TEXT, |parser| {
+                parser.expect_word(words::SIZE)?;
+                Ok(Operation::TextSize(parser.number("the size of characters")?))
+            }),
+            (words::XFORM, |parser| {
+                let matrix = parser.one_of(&[(words::MATRIX, true), (words::VECTOR_LIST, false)])?;
+                Ok(if matrix {
+                    Operation::XformMatrix
+                } else {
+                    Operation::XformVectorList
+                })
+            }),
+            (words::SURFACE_RENDERING, |_| Ok(Operation::SurfaceRendering)),
+            (words::SOLID_RENDERING, |_| Ok(Operation::SolidRendering)),
+            (words::SECTIONING_PLANE, |_| Ok(Operation::SectioningPlane)),
         ];
         let Some(&(_, form)) = forms.iter().find(|(word, _)| self.is_word(*word)) else {
             return Ok(None);
@@ -87,113 +119,23 @@ impl<'s> Parser<'s> {
         }))
     }
 
-    /// AT, FROM and UP in any order, UP optional.
-    fn look(&mut self) -> Parsed<Operation> {
-        let parts = [words::AT, words::FROM, words::UP];
-        let mut points = [None; 3];
-        while let Some(index) = parts.iter().position(|&word| self.is_word(word)) {
-            if points[index].is_some() {
-                let message = format!("{} is said twice", parts[index].full);
-                return Err(Diagnostic::error(self.current.at, message).into());
-            }
-            self.advance();
-            points[index] = Some(self.point(parts[index].full)?);
+    /// Everything after CHARACTER, where SCALE, ROTATE or FONT stands.
+    fn character_operation(&mut self) -> Parsed<Operation> {
+        if self.accept_word(words::FONT) {
+            return Ok(Operation::CharacterFont(self.name("the name of a font")?));
         }
-        match points {
-            [Some(at), Some(from), up] => Ok(Operation::Look { at, from, up }),
-            [None, ..] => Err(self.unknown_word("AT x,y,z", &parts)),
-            _ => Err(self.unknown_word("FROM x,y,z", &parts)),
+        if self.accept_word(words::ROTATE) {
+            return Ok(Operation::CharacterRotate {
+                degrees: self.number("an angle in degrees")?,
+            });
         }
-    }
-
-    fn field_of_view(&mut self) -> Parsed<Operation> {
-        let degrees = self.number("an angle in degrees")?;
-        Ok(Operation::FieldOfView {
-            degrees,
-            boundaries: self.boundaries()?,
-        })
-    }
-
-    fn window(&mut self) -> Parsed<Operation> {
-        let x = self.range_after(words::X, "the left and right edge, as -1:1")?;
-        let y = self.range_after(words::Y, "the lower and upper edge, as -1:1")?;
-        Ok(Operation::Window {
-            x,
-            y,
-            boundaries: self.boundaries()?,
-        })
-    }
-
-    fn viewport(&mut self) -> Parsed<Operation> {
-        let horizontal = self.range_after(words::HORIZONTAL, "the left and right edge, as -1:1")?;
-        let vertical = self.range_after(words::VERTICAL, "the lower and upper edge, as -1:1")?;
-        let intensity = if self.is_word(words::INTENSITY) {
-            Some(self.range_after(words::INTENSITY, "the lowest and highest intensity, as 0:1")?)
+        self.expect_word(words::SCALE)?;
+        let x = self.number("a factor")?;
+        let y = if self.accept(Mark::Comma) {
+            self.number("the factor of heights")?
         } else {
-            None
+            x
         };
-        Ok(Operation::Viewport {
-            horizontal,
-            vertical,
-            intensity,
-        })
-    }
-
-    fn set(&mut self) -> Parsed<Operation> {
-        if self.accept_word(words::COLOR) {
-            let hue = self.pair("hue and saturation, as 120,1")?;
-            return Ok(Operation::SetColor {
-                hue_deg: hue.x,
-                saturation: hue.y,
-            });
-        }
-        if self.accept_word(words::INTENSITY) {
-            let on = self.one_of(&ON_OFF)?;
-            let range = self.range("the lowest and highest intensity, as 0:1")?;
-            return Ok(Operation::SetIntensity { on, range });
-        }
-        if self.accept_word(words::DEPTH_CLIPPING) {
-            return Ok(Operation::SetDepthClipping(self.one_of(&ON_OFF)?));
-        }
-        if self.accept_word(words::PICKING) {
-            return self.set_picking();
-        }
-        if self.accept_word(words::CONDITIONAL_BIT) || self.accept_word(words::COND_BIT) {
-            let bit = self.bit()?;
-            return Ok(Operation::SetConditionalBit {
-                bit,
-                on: self.one_of(&ON_OFF)?,
-            });
-        }
-        Err(self.unknown_word(words::listed(&words::ATTRIBUTES), &words::ATTRIBUTES))
-    }
-
-    fn set_picking(&mut self) -> Parsed<Operation> {
-        if self.is_word_before(words::IDENTIFIER, Mark::Equals) {
-            self.advance();
-            self.advance();
-            return Ok(Operation::SetPickingIdentifier(self.name("a pick identifier")?));
-        }
-        if !matches!(self.current.kind, TokenKind::Word(_)) {
-            return Err(self.unexpected("ON, OFF or IDENTIFIER=name"));
-        }
-        Ok(Operation::SetPicking(self.one_of(&ON_OFF)?))
-    }
-
-    fn condition(&mut self) -> Parsed<Operation> {
-        if !self.accept_word(words::CONDITIONAL_BIT) && !self.accept_word(words::COND_BIT) {
-            return Err(self.unknown_word(words::CONDITIONAL_BIT.full, &[words::CONDITIONAL_BIT]));
-        }
-        let bit = self.bit()?;
-        self.accept_word(words::IS);
-        Ok(Operation::IfConditionalBit {
-            bit,
-            on: self.one_of(&ON_OFF)?,
-        })
-    }
-
-    fn bit(&mut self) -> Parsed<u8> {
-        let last = i64::from(Operation::CONDITIONAL_BITS) - 1;
-        Ok(self.integer(0..=last, "the number of a conditional bit")? as u8)
+        Ok(Operation::CharacterScale(DVec2::new(x, y)))
     }
 }

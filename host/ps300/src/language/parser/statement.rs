@@ -1,5 +1,6 @@
 //! Commands by their first word.
-//! Source: `docs/protocols/ps300.md`, sections "Structure and display" and "Network commands".
+//! Source: `docs/protocols/ps300.md`, sections "Structure and display" and "Network commands". Ours, where the
+//! record is silent: BEGIN may be followed by a semicolon and need not be.
 
 use super::{Parsed, Parser};
 use crate::language::token::{Mark, TokenKind};
@@ -16,7 +17,7 @@ impl<'s> Parser<'s> {
         {
             return self.define();
         }
-        let forms: [(Word, Form<'s>); 14] = [
+        let forms: [(Word, Form<'s>); 20] = [
             (words::CONNECT, Self::connect),
             (words::DISCONNECT, Self::disconnect),
             (words::SEND, Self::send),
@@ -24,7 +25,7 @@ impl<'s> Parser<'s> {
             (words::VARIABLE, |parser| {
                 Ok(Command::Variable(parser.names("the name of a variable")?))
             }),
-            (words::SETUP, Self::setup_cness),
+            (words::SETUP, Self::setup),
             (words::INCLUDE, Self::include),
             (words::REMOVE, Self::remove),
             (words::DISPLAY, |parser| {
@@ -37,10 +38,29 @@ impl<'s> Parser<'s> {
             (words::FOLLOW, Self::follow),
             (words::PREFIX, Self::prefix),
             (words::INITIALIZE, Self::initialize),
+            (words::PATTERN, Self::pattern_with),
+            (words::BEGIN, |_| Ok(Command::BeginGroup)),
+            (words::END, |parser| Ok(parser.end())),
+            (words::OPTIMIZE, |parser| {
+                parser.expect_word(words::STRUCTURE)?;
+                Ok(Command::Optimize)
+            }),
+            (words::RESERVE_WORKING_STORAGE, |parser| {
+                let bytes = parser.integer(0..=i64::from(u32::MAX), "a number of bytes")? as u32;
+                Ok(Command::ReserveWorkingStorage { bytes })
+            }),
+            (words::COMMAND, |parser| {
+                parser.expect_word(words::STATUS)?;
+                Ok(Command::CommandStatus)
+            }),
         ];
         if let Some(&(_, form)) = forms.iter().find(|(word, _)| self.is_word(*word)) {
             self.advance();
             return form(self);
+        }
+        if self.accept(Mark::Bang) {
+            self.expect_word(words::RESET)?;
+            return Ok(Command::Reset);
         }
         if self.is_word(words::BEGIN_STRUCTURE) || self.is_word(words::END_STRUCTURE) {
             return Err(self.loose_structure());
@@ -117,13 +137,51 @@ impl<'s> Parser<'s> {
         })
     }
 
-    fn setup_cness(&mut self) -> Parsed<Command> {
-        self.expect_word(words::CNESS)?;
+    fn setup(&mut self) -> Parsed<Command> {
+        if self.accept_word(words::STATE) {
+            return self.setup_state();
+        }
+        if !self.accept_word(words::CNESS) {
+            let known = [words::CNESS, words::STATE];
+            return Err(self.unknown_word(words::listed(&known), &known));
+        }
         let constant = self.one_of(&[(words::TRUE, true), (words::FALSE, false)])?;
         Ok(Command::SetupCness {
             constant,
             input: self.input_of()?,
         })
+    }
+
+    fn setup_state(&mut self) -> Parsed<Command> {
+        let mut values = Vec::new();
+        while !self.is_word(words::IN) {
+            values.push(self.value()?);
+            if !self.accept(Mark::Comma) {
+                break;
+            }
+        }
+        self.expect_word(words::IN)?;
+        Ok(Command::SetupState {
+            name: self.name("the name of a function")?,
+            values,
+        })
+    }
+
+    fn pattern_with(&mut self) -> Parsed<Command> {
+        let list = self.name("the name of a vector list or curve")?;
+        self.expect_word(words::WITH)?;
+        Ok(Command::PatternWith {
+            list,
+            pattern: self.name("the name of a pattern")?,
+        })
+    }
+
+    fn end(&mut self) -> Command {
+        if self.accept_word(words::OPTIMIZE) {
+            Command::EndOptimize
+        } else {
+            Command::EndGroup
+        }
     }
 
     fn include(&mut self) -> Parsed<Command> {
