@@ -148,14 +148,28 @@ impl Names {
         self.entry_mut(id).known = false;
     }
 
-    /// The name of an entry; for one that was forgotten, a name nothing else bears.
+    /// The name of an entry; for one that was forgotten, a name nothing else bears: its own where that is free.
     pub(crate) fn spelling(&self, id: NameId) -> Name {
         let entry = self.entry(id);
         if entry.known {
             return entry.name.clone();
         }
-        let mut spare = Name::new(&format!("{}${}", entry.name, id.0));
-        while self.by_name.contains_key(&spare) {
+        // Of several forgotten ones of one name, the oldest keeps it.
+        let taken = |name: &Name| {
+            let others = self
+                .entries
+                .iter()
+                .enumerate()
+                .filter(|(at, _)| *at != id.0 as usize);
+            let mut forgotten = others.filter(|(_, other)| !other.known && other.name == *name);
+            let own = entry.name == *name;
+            self.by_name.contains_key(name) || forgotten.any(|(at, _)| !own || at < id.0 as usize)
+        };
+        let mut spare = entry.name.clone();
+        if taken(&spare) {
+            spare = Name::new(&format!("{spare}${}", id.0));
+        }
+        while taken(&spare) {
             spare = Name::new(&format!("{spare}$"));
         }
         spare

@@ -103,22 +103,27 @@ impl Function for Clock {
         Ok(())
     }
 
+    /// Without the time of the last look, which is the machine's affair: a clock that is made again goes on
+    /// from the moment it is made.
     fn remembered(&self) -> Vec<Value> {
-        let Some(seen) = self.seen else {
+        if self.elapsed == 0 && self.count.is_none() {
             return Vec::new();
-        };
-        let mut state = vec![Value::Real(seen as f64), Value::Real(self.elapsed as f64)];
+        }
+        let mut state = vec![Value::Real(self.elapsed as f64)];
         state.extend(self.count.map(Value::Integer));
         state
     }
 
     fn recall(&mut self, state: &[Value]) -> bool {
-        let new = Self::new(self.units);
-        let units = self.units;
+        let Self { units, seen, .. } = *self;
+        let new = Self {
+            seen,
+            ..Self::new(units)
+        };
         restore(self, new, state, |state| {
             Some(Self {
                 units,
-                seen: Some(state.count()?),
+                seen,
                 elapsed: state.count()?,
                 count: if state.left() > 0 {
                     Some(state.integer()?)

@@ -88,6 +88,12 @@ pub enum ExecuteError {
         /// The variable.
         name: Name,
     },
+    /// SETUP STATE with values that are not of this function or node.
+    #[error("{name} cannot be in that state; SETUP STATE takes what a program with state says of it")]
+    State {
+        /// As written.
+        name: Name,
+    },
     /// The definition would contain itself.
     #[error("{name} would contain itself")]
     Cycle {

@@ -63,7 +63,7 @@ impl Machine {
                 self.thing(list)?;
                 self.thing(pattern).map(|_| ())
             }
-            Command::SetupState { name, .. } => self.thing(name).map(|_| ()),
+            Command::SetupState { name, values } => self.setup_state(name, values),
             Command::BeginGroup
             | Command::EndGroup
             | Command::Optimize

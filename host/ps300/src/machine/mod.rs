@@ -13,6 +13,7 @@ mod load;
 mod panel;
 pub mod picture;
 mod program;
+mod program_state;
 mod removal;
 mod state;
 mod tree;

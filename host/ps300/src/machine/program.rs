@@ -1,39 +1,50 @@
 //! The machine's content as a program that makes it again.
 //!
 //! Definitions in the order they were made, then connections, constants and waiting messages, then what
-//! is displayed. What messages have done to running sums and to display nodes is not part of it: a
-//! reloaded machine starts from what was written.
+//! is displayed. What messages have done to running sums, to display nodes and to the panel is part of it only
+//! where that is asked for: without it a reloaded machine starts from what was written.
 //! A thing whose name was forgotten is printed under a spare name and forgotten again at the end.
 
 use std::fmt::Write;
 
 use super::Machine;
-use crate::language::{Command, Definition, Input, InputOf, Name, OutputOf, Payload, print};
+use crate::language::{Command, Definition, InputOf, Name, OutputOf, print};
 use crate::names::{Owner, Thing};
-use crate::network::{Instance, InstanceId, Numbered, Role};
+use crate::network::{InstanceId, Numbered, Role};
 use crate::structure::{Body, NodeId};
-use crate::value::Value;
 
 impl Machine {
     /// The canonical text of everything commands have made; loading it into a new machine makes it again.
     pub fn network_text(&self) -> String {
-        let mut text = String::new();
-        for command in self.program() {
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "{}", print(&command));
-        }
-        text
+        written(&self.program())
     }
 
-    /// The same as commands.
+    /// The same with what messages have done since: loaded into a new machine with the same host parameters it
+    /// goes on where this one is. Give the new machine its network time before, or clocks begin anew from there.
+    /// Lists of picks that wait have no text and are left out, as are messages of the host that are not yet
+    /// let in.
+    pub fn network_text_with_state(&self) -> String {
+        written(&self.program_with_state())
+    }
+
+    /// What [`Machine::network_text`] writes, as commands.
     pub fn program(&self) -> Vec<Command> {
+        self.print(false)
+    }
+
+    /// What [`Machine::network_text_with_state`] writes, as commands.
+    pub fn program_with_state(&self) -> Vec<Command> {
+        self.print(true)
+    }
+
+    fn print(&self, with_state: bool) -> Vec<Command> {
         let mut program = Vec::new();
         let mut forgotten = Vec::new();
         for entry in self.names.defined() {
             let name = self.names.spelling(entry);
             let is_label = self.names.entry(entry).owner == Owner::Structure;
             match self.names.entry(entry).thing {
-                Some(Thing::Instance(id)) => self.print_instance(id, &name, &mut program),
+                Some(Thing::Instance(id)) if !is_label => self.print_instance(id, &name, &mut program),
                 Some(Thing::Node(id)) if !is_label => self.print_node(id, &name, &mut program),
                 _ => {}
             }
@@ -42,7 +53,11 @@ impl Machine {
             }
         }
         self.print_wires(&mut program);
-        self.print_messages(&mut program);
+        self.print_constants(&mut program);
+        if with_state {
+            self.print_state(&mut program);
+        }
+        self.print_waiting(&mut program);
         program.extend(
             self.displayed
                 .iter()
@@ -52,7 +67,7 @@ impl Machine {
         program
     }
 
-    fn print_instance(&self, id: InstanceId, name: &Name, program: &mut Vec<Command>) {
+    pub(super) fn print_instance(&self, id: InstanceId, name: &Name, program: &mut Vec<Command>) {
         let Some(instance) = self.network.instance(id) else {
             return;
         };
@@ -68,7 +83,7 @@ impl Machine {
         });
     }
 
-    fn print_node(&self, id: NodeId, name: &Name, program: &mut Vec<Command>) {
+    pub(super) fn print_node(&self, id: NodeId, name: &Name, program: &mut Vec<Command>) {
         let node = self.structure.describe(id, &self.names);
         program.push(Command::Define {
             name: name.clone(),
@@ -126,44 +141,13 @@ impl Machine {
             }
         }
     }
+}
 
-    fn print_messages(&self, program: &mut Vec<Command>) {
-        let instances = self.network.instances();
-        let each = |visit: &mut dyn FnMut(Name, &Instance, u8)| {
-            for Numbered { id, instance } in &instances {
-                let name = self.spelt(Thing::Instance(*id), &instance.name);
-                for input in 1..=instance.input_count() as u8 {
-                    visit(name.clone(), instance, input);
-                }
-            }
-        };
-        let at = |name: Name, input: u8| InputOf {
-            name,
-            input: Input::Number(input.into()),
-        };
-        each(&mut |name, instance, input| {
-            if let Some(constant) = instance.changed_cness(input) {
-                program.push(Command::SetupCness {
-                    constant,
-                    input: at(name, input),
-                });
-            }
-        });
-        let mut send = |name, input, value: &Value| {
-            program.push(Command::Send {
-                payload: Payload::Value(value.clone()),
-                to: at(name, input),
-            });
-        };
-        each(&mut |name, instance, input| {
-            if let Some(value) = instance.held_if_set(input) {
-                send(name, input, value);
-            }
-        });
-        each(&mut |name, instance, input| {
-            for value in instance.queued(input) {
-                send(name.clone(), input, value);
-            }
-        });
+fn written(program: &[Command]) -> String {
+    let mut text = String::new();
+    for command in program {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", print(command));
     }
+    text
 }

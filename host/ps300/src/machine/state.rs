@@ -1,8 +1,9 @@
-//! What functions remember: running sums, clocks, the last value passed.
+//! What functions and data nodes remember: running sums, clocks, the last value passed, ink.
 //!
 //! Apart from constants and waiting messages, which commands can make again without knowing the function.
 
-use super::Machine;
+use super::execute::Done;
+use super::{ExecuteError, Machine};
 use crate::language::Name;
 use crate::names::Thing;
 use crate::network::Instance;
@@ -27,6 +28,19 @@ impl Machine {
         match self.names.thing(&Name::new(name)) {
             Some(Thing::Instance(id)) => self.network.recall(id, state),
             _ => false,
+        }
+    }
+
+    pub(super) fn setup_state(&mut self, name: &Name, values: &[Value]) -> Done {
+        let fits = match self.thing(name)? {
+            Thing::Instance(id) => self.network.recall(id, values),
+            Thing::Node(id) => self.structure.recall(id, values),
+            Thing::Sink(_) => false,
+        };
+        if fits {
+            Ok(())
+        } else {
+            Err(ExecuteError::State { name: name.clone() })
         }
     }
 }

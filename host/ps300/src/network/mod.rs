@@ -287,6 +287,11 @@ impl Network {
             .is_some_and(|instance| instance.recall(state))
     }
 
+    /// The instances that are ready to fire, in their turn.
+    pub(crate) fn ready(&self) -> impl Iterator<Item = InstanceId> + '_ {
+        self.ready.iter().copied()
+    }
+
     /// What a constant or variable holds at its first input.
     pub(crate) fn held(&self, id: InstanceId) -> Option<&Value> {
         self.instance(id)?.inputs.first()?.front()

@@ -58,7 +58,11 @@ impl Structure {
             return Ok(());
         };
         match &mut slot.body {
-            Body::Operation { change, .. } => change.effect.feed(&change.operation, input, value),
+            Body::Operation { change, .. } => {
+                change.effect.feed(&change.operation, input, value)?;
+                slot.told.note(input, value);
+                Ok(())
+            }
             Body::Vectors(list) => edit_vectors(list.now_mut(), input, value),
             Body::Characters(characters) => edit_characters(characters.now_mut(), input, value),
             _ => Ok(()),

@@ -11,6 +11,7 @@ mod effect;
 mod inlet;
 mod line;
 pub(crate) mod projection;
+mod state;
 mod walk;
 
 pub(crate) use build::BuildError;
@@ -19,6 +20,7 @@ pub(crate) use projection::NoView;
 pub(crate) use walk::Walk;
 
 use effect::Effect;
+use state::Told;
 
 use crate::language::{Characters, Name, Node, Operation, VectorList};
 use crate::names::NameId;
@@ -36,6 +38,7 @@ pub(crate) struct Slot {
     pub(crate) above: Vec<Change>,
     /// Put below it by FOLLOW, outermost first.
     pub(crate) below: Vec<Change>,
+    told: Told,
 }
 
 /// An operation as written and what it now does.
@@ -109,6 +112,7 @@ impl Structure {
             body,
             above: Vec::new(),
             below: Vec::new(),
+            told: Told::default(),
         });
         if let Some(index) = self.vacant.pop() {
             self.slots[index as usize] = slot;
