@@ -70,7 +70,7 @@ fn written_anew(text: &str) -> String {
 /// The path on a line that has nothing else.
 fn path_alone(line: &str) -> Option<String> {
     let path = line.strip_prefix('`')?.strip_suffix('`')?;
-    (path.ends_with(".ps300") && !path.contains('`')).then(|| path.to_owned())
+    (path.contains('/') && !path.contains('`')).then(|| path.to_owned())
 }
 
 fn first_difference(text: &str, anew: &str) -> String {
