@@ -1,4 +1,4 @@
-//! Messages through the function network: the dial network, a chain of 1000, a fan of 1000.
+//! Messages through the function network: the dial network, chains of 1000 and 100 000, a fan of 1000.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dialrig_tests::measure::network::Shape;
@@ -10,6 +10,7 @@ fn tokens(bench: &mut Criterion) {
         ("dials", Shape::dials()),
         ("chain", Shape::chain()),
         ("fan-out", Shape::fan_out()),
+        ("long chain", Shape::chain_of(100_000)),
     ] {
         let mut shape = shape.expect("the network loads");
         group.throughput(Throughput::Elements(shape.messages() as u64));

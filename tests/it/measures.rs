@@ -40,7 +40,12 @@ fn rows_have_what_the_page_says() {
         let rows = rows.iter().filter(|row| row["measure"] == name);
         rows.filter_map(|row| row["row"].as_str()).collect()
     };
-    assert_eq!(of("network"), ["dials", "chain", "fan-out"]);
+    let peers = rows.iter().filter(|row| row["subject"] == "pd").count();
+    assert!(peers == 0 || peers == 3, "{peers} rows of Pure Data");
+    let mut network = of("network");
+    network.dedup();
+    let linear = ["linear-100", "linear-1000", "linear-10000", "linear-100000"];
+    assert_eq!(network, [&["dials", "chain", "fan-out"], &linear[..]].concat());
     assert_eq!(of("rig-step").len(), 3);
 }
 

@@ -47,9 +47,11 @@ pub const MEASURES: [Measure; 4] = [
     },
     Measure {
         name: network::NAME,
-        about: "Messages a second that the function network delivers to inputs. Higher is better. dials: eight \
-                dial events make 20 messages; chain: 1000 functions in a row; fan-out: one output to 1000 inputs. \
-                No limit, no ratio.",
+        about: "Messages a second that the function network delivers to inputs: higher is better. dials: eight \
+                dial events make 20 messages; chain: 1000 F:ADDC in a row; fan-out: one output to 1000 F:ADDC. \
+                limit: Pure Data (pd) with the same graph, if it is installed; ratio = value / limit: higher is \
+                better. linear-N: ns that a message costs in a chain of N: lower is better. limit: twice that of \
+                100; ratio = value / that of 100: below 2 is within it.",
         take: network::take,
     },
 ];
