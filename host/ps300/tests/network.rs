@@ -151,7 +151,13 @@ fn a_loop_without_end_uses_its_budget_and_lets_others_live() {
         "{report}"
     );
     m.send("c", Input::Number(1), 8.0).unwrap();
-    assert_eq!(m.tick(0.0, 0, 3), Ran::OutOfBudget { waiting: 1 });
+    assert_eq!(
+        m.tick(0.0, 0, 3),
+        Ran::OutOfBudget {
+            firings: 3,
+            waiting: 1
+        }
+    );
     assert_eq!(seen(&mut m), ["c<1> 8"]);
     m.load("DISCONNECT b<1>:ALL;");
     assert_eq!(m.tick(0.0, 0, 3), Ran::Quiet { firings: 0 });

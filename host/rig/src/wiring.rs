@@ -15,7 +15,7 @@ use ps300::value::{Kinds, Value};
 use crate::document::{FigureDoc, Show};
 use crate::parameters::{self, LINK, PARAMETERS, Request};
 
-/// Firings of one step; what is left goes on in the next one.
+/// Firings that the messages of one step may set off, and again its clocks; what is left goes on in the next one.
 const FIRINGS_PER_STEP: u32 = 20_000;
 
 /// The network and what it is connected to.
@@ -25,6 +25,8 @@ pub(crate) struct Wiring {
     links: Vec<String>,
     frame: u64,
     secs: f64,
+    /// Of [`FIRINGS_PER_STEP`].
+    firings_left: u32,
     picture: (u64, Arc<DisplayList>),
 }
 
@@ -54,6 +56,7 @@ impl Wiring {
             links,
             frame: 0,
             secs: 0.0,
+            firings_left: FIRINGS_PER_STEP,
             picture: (0, Arc::default()),
         };
         for file in &show.networks {
@@ -93,10 +96,10 @@ impl Wiring {
         &self.machine
     }
 
-    /// A message from a device instance; the network runs until it is quiet before the next one.
+    /// A message from a device instance; what it sets off is over before the next one is let in.
     pub(crate) fn hear(&mut self, instance: &str, output: u8, value: Value) {
         self.machine.emit(instance, output, value);
-        self.machine.settle();
+        self.firings_left -= self.machine.go_on(self.firings_left).firings();
     }
 
     /// Moves network time and lets clocks send. Returns what went wrong, in words.
@@ -104,6 +107,7 @@ impl Wiring {
         self.secs = secs;
         self.frame += 1;
         self.machine.tick(secs, self.frame, FIRINGS_PER_STEP);
+        self.firings_left = FIRINGS_PER_STEP;
         self.machine.reports().iter().map(ToString::to_string).collect()
     }
 

@@ -10,11 +10,18 @@ use crate::structure::{BuildError, Structure, reaches};
 pub(super) type Done = Result<(), ExecuteError>;
 
 impl Machine {
-    /// Lets one command take effect, then runs the network. A command that is refused changes nothing.
+    /// Lets what came before the command be over, then the command take effect, then runs the network. A command
+    /// that is refused changes nothing.
     pub fn execute(&mut self, command: &Command) -> Result<(), ExecuteError> {
-        self.take_effect(command)?;
+        let firings = self.network.limits.firings_per_command;
+        self.execute_within(firings, command).map(|_| ())
+    }
+
+    /// The same with as many firings as are said. Returns how many there were.
+    pub(super) fn execute_within(&mut self, firings: u32, command: &Command) -> Result<u32, ExecuteError> {
         self.settle();
-        Ok(())
+        self.take_effect(command)?;
+        Ok(super::with_network!(self, |network, around| network.run_command(firings, around)))
     }
 
     fn take_effect(&mut self, command: &Command) -> Done {

@@ -3,15 +3,25 @@
 use super::Machine;
 use crate::language::{Command, Definition, Diagnostic, Located, Name, Node, Position, parse};
 
+/// Firings a command has in any case: enough for most, and few enough for a text of a million commands that are
+/// given while something goes round for ever.
+const FIRINGS_LEAST: u32 = 16;
+
 impl Machine {
     /// Reads a program and executes it command by command. What could not be read or executed is left out
     /// and named, in the order of the text; so is what display nodes refer to and nothing defines.
     pub fn load(&mut self, source: &str) -> Vec<Diagnostic> {
         let (commands, mut diagnostics) = parse(source);
         let mut referred = Vec::new();
+        let limits = self.network.limits;
+        let mut left = limits.firings_per_load;
         for Located { at, what } in &commands {
-            match self.execute(what) {
-                Ok(()) => references(what, *at, &mut referred),
+            let firings = limits.firings_per_command.min(left.max(FIRINGS_LEAST));
+            match self.execute_within(firings, what) {
+                Ok(fired) => {
+                    left = left.saturating_sub(fired);
+                    references(what, *at, &mut referred);
+                }
                 Err(error) => diagnostics.push(Diagnostic::error(*at, error.to_string())),
             }
         }

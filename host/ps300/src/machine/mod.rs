@@ -1,8 +1,9 @@
 //! The machine: names, network, display tree and front panel, driven by commands and by the host.
 //!
 //! Everything a host does goes through [`Machine`]. Commands take effect one at a time, and the network
-//! runs until it is quiet (or out of budget) before the next. Messages of the host (`emit`, `send`) wait
-//! for the next tick or command.
+//! runs until it is quiet (or out of budget) before the next. Messages of the host (`emit`, `send`) make a
+//! batch, which the next tick or command ends; what a batch sets off is over before the next is let in, so
+//! how many firings a host allows in one tick never changes what happens, only when.
 
 mod activity;
 pub mod devices;
@@ -34,8 +35,8 @@ use crate::intrinsic::Now;
 use crate::language::{Input, Name};
 use crate::names::{NameId, Names, Thing};
 use crate::network::{
-    Cause, Inlet, InstanceId, Limits, Network, Outlet, Ran, Refusal, Report, Role, SinkId, Surroundings,
-    Watched,
+    Arrival, Cause, Inlet, InstanceId, Limits, Network, Outlet, Ran, Refusal, Report, Role, SinkId,
+    Surroundings, Watched,
 };
 use crate::structure::{NodeId, Structure, Walk};
 use crate::value::{Kinds, Value};
@@ -50,7 +51,8 @@ pub struct Machine {
     readouts: Readouts,
     /// In the order of DISPLAY.
     displayed: Vec<NameId>,
-    ticks: u64,
+    /// Network time of the last tick; the network gets there when the batches before it are over.
+    ticked: Now,
     /// Counts commands that may have changed what there is and how it is joined.
     topology: u64,
 }
@@ -132,8 +134,7 @@ impl Machine {
     /// The same with other bounds.
     pub fn with_limits(limits: Limits) -> Self {
         let mut names = Names::default();
-        let mut network = Network::default();
-        network.limits = limits;
+        let mut network = Network::new(limits);
         let readouts = Readouts::install(&mut network, &mut names);
         for source in &devices::SOURCES {
             let name = Name::new(source.name);
@@ -149,7 +150,7 @@ impl Machine {
             panel: Panel::default(),
             readouts,
             displayed: Vec::new(),
-            ticks: 0,
+            ticked: Now::default(),
             topology: 0,
         }
     }
@@ -168,8 +169,8 @@ impl Machine {
         self.network.destinations(from).len()
     }
 
-    /// Sends on an output as if the device had: `emit("DIALS", 3, 0.25)`. Queues only; the next tick or
-    /// command runs the network. False if there is no such output.
+    /// Sends on an output as if the device had: `emit("DIALS", 3, 0.25)`. The next tick or command lets it
+    /// act. False if there is no such output.
     pub fn emit(&mut self, name: &str, output: u8, value: impl Into<Value>) -> bool {
         match self.outlet(name, output) {
             Some(from) => {
@@ -182,40 +183,50 @@ impl Machine {
 
     /// The same without looking up a name.
     pub fn emit_from(&mut self, from: Outlet, value: impl Into<Value>) {
-        with_network!(self, |network, around| network.send_out(
-            from,
-            &value.into(),
-            around
-        ));
+        self.arrive(Arrival::Output(from), value.into());
     }
 
     /// Sends to an input, as the command SEND would, without running the network.
     pub fn send(&mut self, name: &str, input: Input, value: impl Into<Value>) -> Result<(), ExecuteError> {
-        self.deliver(&Name::new(name), input, &value.into())
+        let value = value.into();
+        let inlet = self.inlet_for(&Name::new(name), input, &value)?;
+        self.arrive(Arrival::Input(inlet), value);
+        Ok(())
     }
 
-    /// Moves network time, lets the clocks send, and fires at most `firings_max` instances. What is left
-    /// goes on, in the same order, at the next tick. Time that runs backwards stands still.
+    fn arrive(&mut self, to: Arrival, value: Value) {
+        with_network!(self, |network, around| network.arrive(to, value, around));
+    }
+
+    /// Ends the batch of messages sent since the last tick, moves network time, lets the clocks send, and fires
+    /// at most `firings_max` instances. What is left goes on, in the same order, at the next tick: the sequence
+    /// of all firings is the same however they are portioned. Time that runs backwards stands still.
     pub fn tick(&mut self, secs: f64, frame: u64, firings_max: u32) -> Ran {
-        self.ticks += 1;
-        let before = self.network.now;
-        let secs = if secs >= before.secs { secs } else { before.secs };
-        let now = Now {
-            secs,
+        let before = self.ticked;
+        self.ticked = Now {
+            secs: if secs >= before.secs { secs } else { before.secs },
             frame: frame.max(before.frame),
-            ticks: self.ticks,
+            ticks: before.ticks + 1,
         };
+        let now = self.ticked;
         with_network!(self, |network, around| {
-            network.advance(now, around);
+            network.close_batch(Some(now));
             network.run(firings_max, around)
         })
     }
 
-    /// Runs the network until it is quiet, or out of the budget of one command, without moving time: what a
-    /// host does between two messages that must not meet on the way.
+    /// The same without moving time: what a host does between two messages that must not meet on the way.
+    pub fn go_on(&mut self, firings_max: u32) -> Ran {
+        with_network!(self, |network, around| {
+            network.close_batch(None);
+            network.run(firings_max, around)
+        })
+    }
+
+    /// Ends the batch and runs until everything sent so far is over, each batch with its own share of firings
+    /// ([`Limits::firings_per_batch`]), without moving time.
     pub fn settle(&mut self) -> Ran {
-        let firings = self.network.limits.firings_per_command;
-        with_network!(self, |network, around| network.run(firings, around))
+        with_network!(self, |network, around| network.catch_up(around))
     }
 
     /// Declares a host parameter with inputs <1>, <2>…, so that networks can be connected to it.
@@ -338,7 +349,7 @@ impl Machine {
 
     /// Network time at the last tick.
     pub fn secs(&self) -> f64 {
-        self.network.now.secs
+        self.ticked.secs
     }
 
     fn note(&mut self, name: &Name, what: &str, cause: Cause) {

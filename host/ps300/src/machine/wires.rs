@@ -142,21 +142,30 @@ impl Machine {
     }
 
     pub(super) fn deliver(&mut self, name: &Name, input: Input, value: &Value) -> Done {
+        let inlet = self.inlet_for(name, input, value)?;
+        super::with_network!(self, |network, around| network.deliver(inlet, value, around));
+        Ok(())
+    }
+
+    /// Where a message to an input goes, if it is one that the input takes.
+    pub(super) fn inlet_for(&self, name: &Name, input: Input, value: &Value) -> Result<Inlet, ExecuteError> {
         let (inlet, expected) = self.inlet_of(name, input)?;
-        let (name, input) = (name.clone(), input_text(input));
+        let (name, input) = (|| name.clone(), || input_text(input));
         if !expected.has(value.kind()) {
             return Err(ExecuteError::Kind {
-                name,
-                input,
+                name: name(),
+                input: input(),
                 expected,
                 got: value.kind(),
             });
         }
         if !value.is_finite() {
-            return Err(ExecuteError::NotFinite { name, input });
+            return Err(ExecuteError::NotFinite {
+                name: name(),
+                input: input(),
+            });
         }
-        super::with_network!(self, |network, around| network.deliver(inlet, value, around));
-        Ok(())
+        Ok(inlet)
     }
 
     pub(super) fn setup_cness(&mut self, constant: bool, input: &InputOf) -> Done {

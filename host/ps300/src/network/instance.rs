@@ -142,9 +142,9 @@ impl Instance {
         }
     }
 
-    /// Takes one message from every active queue; returns how many that were.
+    /// Takes one message from every active queue; returns how many moved up from behind them.
     pub(super) fn consume(&mut self) -> usize {
-        let mut taken = 0;
+        let mut moved = 0;
         if self.each {
             let first = self
                 .inputs
@@ -153,16 +153,16 @@ impl Instance {
             return first.map_or(0, |at| self.consume_offending(at as u8 + 1));
         }
         for port in self.inputs.iter_mut().filter(|port| !port.constant) {
-            taken += usize::from(port.pop());
+            moved += port.pop();
             if port.waiting() == 0 {
                 self.missing += 1;
             }
         }
-        taken
+        moved
     }
 
     /// Takes the one message that did not fit: at `input`, or, where that is a constant, at the first
-    /// active input. Returns where and how many (0 or 1).
+    /// active input. Returns how many (0 or 1) moved up from behind it.
     pub(super) fn consume_offending(&mut self, input: u8) -> usize {
         let blamed = usize::from(input).wrapping_sub(1);
         let at = match self.inputs.get(blamed) {
@@ -172,16 +172,16 @@ impl Instance {
         let Some(port) = at.and_then(|at| self.inputs.get_mut(at)) else {
             return 0;
         };
-        let taken = usize::from(port.pop());
+        let moved = port.pop();
         if port.waiting() == 0 {
             self.missing += 1;
         }
-        taken
+        moved
     }
 
-    /// How many messages wait in all queues.
-    pub(super) fn waiting(&self) -> usize {
-        self.inputs.iter().map(InputPort::waiting).sum()
+    /// How many messages wait behind another in all queues.
+    pub(super) fn behind(&self) -> usize {
+        self.inputs.iter().map(InputPort::behind).sum()
     }
 
     pub(crate) fn input_count(&self) -> usize {

@@ -5,6 +5,7 @@
 //! results in every run.
 //! Source: `docs/protocols/ps300.md`, "Execution model" and "What dialrig decides".
 
+mod batch;
 mod connection;
 mod instance;
 mod port;
@@ -12,6 +13,7 @@ mod report;
 mod run;
 mod sink;
 
+pub(crate) use batch::Arrival;
 pub use connection::{ConnectError, InstanceId, Outlet, SinkId};
 pub(crate) use connection::{Inlet, input_text};
 pub use instance::Role;
@@ -26,6 +28,8 @@ pub(crate) use sink::Sink;
 
 use std::collections::{BTreeSet, VecDeque};
 
+use batch::{Allowance, Arrivals};
+
 use crate::intrinsic::{Errand, Now, Outputs, Spec};
 use crate::language::Name;
 use crate::structure::NodeId;
@@ -36,14 +40,24 @@ use crate::value::{Kinds, Value};
 pub struct Limits {
     /// Messages waiting at one input.
     pub queue_max: usize,
-    /// Messages waiting in the whole network.
-    pub waiting_max: usize,
+    /// Messages waiting behind another in the whole network. The first message at an input is not counted, so
+    /// that no part of a network can keep another from going on.
+    pub behind_max: usize,
     /// Inputs fed by one output.
     pub fan_out_max: usize,
     /// Messages for the host, and watched messages, between two drains.
     pub undrained_max: usize,
+    /// Messages of the host that wait for the firings of earlier ones.
+    pub arrivals_max: usize,
+    /// Batches that wait so; ticks beyond are taken together.
+    pub batches_max: usize,
+    /// Firings after which the messages of the next batch are let in although those of the last are not over.
+    /// What goes round for ever takes as much of every batch, so it cannot shut out the host.
+    pub firings_per_batch: u32,
     /// Firings after each command.
     pub firings_per_command: u32,
+    /// Firings of all commands of one text together; when they are used up each further command gets a few.
+    pub firings_per_load: u32,
     /// Instances, devices and variables.
     pub instances_max: usize,
 }
@@ -52,10 +66,14 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             queue_max: 1024,
-            waiting_max: 65_536,
+            behind_max: 65_536,
             fan_out_max: 16_384,
             undrained_max: 65_536,
+            arrivals_max: 65_536,
+            batches_max: 256,
+            firings_per_batch: 4096,
             firings_per_command: 10_000,
+            firings_per_load: 2_000_000,
             instances_max: 100_000,
         }
     }
@@ -75,7 +93,6 @@ pub struct Watched {
 }
 
 /// All instances, their queues and connections, and who fires next.
-#[derive(Default)]
 pub(crate) struct Network {
     slots: Vec<Option<Instance>>,
     vacant: Vec<u32>,
@@ -84,8 +101,13 @@ pub(crate) struct Network {
     /// Instances that became ready, oldest first.
     ready: VecDeque<InstanceId>,
     clocks: Vec<InstanceId>,
-    waiting: usize,
+    /// Messages waiting behind another.
+    behind: usize,
     delivered: u64,
+    arrivals: Arrivals,
+    batch: Allowance,
+    /// Whether the firings of the last batch let in are over.
+    batch_over: bool,
     pub(crate) limits: Limits,
     pub(crate) now: Now,
     pub(crate) reports: Reports,
@@ -97,6 +119,29 @@ pub(crate) struct Network {
 }
 
 impl Network {
+    pub(crate) fn new(limits: Limits) -> Self {
+        Self {
+            slots: Vec::new(),
+            vacant: Vec::new(),
+            made: 0,
+            sinks: Vec::new(),
+            ready: VecDeque::new(),
+            clocks: Vec::new(),
+            behind: 0,
+            delivered: 0,
+            arrivals: Arrivals::default(),
+            batch: Allowance::default(),
+            batch_over: true,
+            limits,
+            now: Now::default(),
+            reports: Reports::default(),
+            arrived: VecDeque::new(),
+            watched: VecDeque::new(),
+            sent: Vec::new(),
+            errands: Vec::new(),
+        }
+    }
+
     /// Makes an instance with empty queues and no connections. Nothing if there are too many.
     pub(crate) fn add(
         &mut self,
@@ -145,7 +190,7 @@ impl Network {
         }
         for id in instances {
             if let Some(instance) = self.slots.get_mut(id.0 as usize).and_then(Option::take) {
-                self.waiting -= instance.waiting();
+                self.behind -= instance.behind();
                 self.vacant.push(id.0);
             }
         }
@@ -274,7 +319,7 @@ impl Network {
         instance.recount();
         let ready = instance.ready();
         let queued = instance.queued;
-        self.waiting -= gone;
+        self.behind -= gone;
         if ready && !queued {
             self.enqueue(id);
         }

@@ -66,15 +66,15 @@ impl InputPort {
         }
     }
 
-    /// Takes the oldest message of an active input; false if there was none.
-    pub(super) fn pop(&mut self) -> bool {
-        let taken = self.front.is_some();
-        if self.behind.is_empty() {
-            self.front = None;
-        } else {
-            self.front = self.behind.pop_front();
-        }
-        taken
+    /// Takes the oldest message of an active input. Returns how many (0 or 1) moved up from behind it.
+    pub(super) fn pop(&mut self) -> usize {
+        self.front = self.behind.pop_front();
+        usize::from(self.front.is_some())
+    }
+
+    /// How many messages wait behind the oldest.
+    pub(super) fn behind(&self) -> usize {
+        self.behind.len()
     }
 
     /// How many messages wait; a constant does not wait.
@@ -95,12 +95,12 @@ impl InputPort {
     }
 
     /// SETUP CNESS. An input made constant keeps its newest message; one made active starts empty.
-    /// Returns how many waiting messages went.
+    /// Returns how many went that waited behind another.
     pub(super) fn make_constant(&mut self, constant: bool) -> usize {
         if constant == self.constant {
             return 0;
         }
-        let gone = self.waiting();
+        let gone = self.behind.len();
         let newest = self.behind.pop_back().or(self.front.take());
         self.constant = constant;
         self.as_built = !self.as_built;

@@ -46,8 +46,12 @@ pub enum Cause {
     },
     /// The whole network holds as many messages as it may; the newest was dropped.
     NetworkFull,
-    /// The firings allowed were used up with this instance next in turn; it goes on at the next tick.
+    /// The firings of a batch or command were used up with this instance next in turn; it goes on with the next.
     OutOfBudget,
+    /// Too many messages of the host wait for the firings of earlier ones; the newest was dropped.
+    BacklogFull,
+    /// Too many ticks wait for the firings of earlier ones; this one is taken together with the next.
+    Behind,
     /// F:SEND or F:FETCH named something that is not there.
     Unknown {
         /// What was asked for.
@@ -95,6 +99,12 @@ impl fmt::Display for Report {
                     "the network did not come to rest; it goes on at the next tick (a loop without end?)",
                 )?;
             }
+            Cause::BacklogFull => {
+                f.write_str(
+                    "too many messages wait for the network to come to rest; the newest was dropped",
+                )?;
+            }
+            Cause::Behind => f.write_str("the network cannot keep up; ticks are taken together")?,
             Cause::Unknown { name } => write!(f, "there is no {name:?}")?,
             Cause::AlreadyConnected { to } => write!(f, "already connected to {to}; nothing changed")?,
             Cause::Unwatched => {

@@ -9,6 +9,7 @@
 //! 4. Setting a constant sets nothing off. It can complete the inputs of an instance at whose active
 //!    inputs messages were waiting for it.
 
+use super::batch::Allowance;
 use super::connection::{Inlet, InstanceId, Outlet, SinkId};
 use super::port::copy;
 use super::{Cause, Network, Watched};
@@ -26,11 +27,22 @@ pub enum Ran {
         /// How many instances fired.
         firings: u32,
     },
-    /// The firings allowed were used up.
+    /// The firings allowed were used up, those of this run or those of the batches it was given.
     OutOfBudget {
+        /// How many instances fired.
+        firings: u32,
         /// How many instances are ready and wait for the next run.
         waiting: u32,
     },
+}
+
+impl Ran {
+    /// How many instances fired.
+    pub fn firings(self) -> u32 {
+        match self {
+            Self::Quiet { firings } | Self::OutOfBudget { firings, .. } => firings,
+        }
+    }
 }
 
 /// Why something outside the network did not take a message.
@@ -53,31 +65,50 @@ pub(crate) trait Surroundings {
     fn variable(&self, name: &str) -> Option<InstanceId>;
 }
 
-/// A run ends early when its firings deliver more than this many messages each on average: firings are
-/// what hosts count, but deliveries are what costs time.
-const DELIVERIES_PER_FIRING: u64 = 64;
-
 impl Network {
-    /// Fires ready instances, oldest readiness first, `firings_max` at most.
+    /// Fires ready instances, oldest readiness first, `firings_max` at most, and lets in the batches whose
+    /// turn it is. The sequence of firings does not depend on `firings_max`.
     pub(crate) fn run(&mut self, firings_max: u32, outside: &mut impl Surroundings) -> Ran {
-        let deliveries_end = self.delivered + DELIVERIES_PER_FIRING * u64::from(firings_max);
+        let slice = Allowance::new(firings_max, self.delivered);
         let mut firings = 0;
-        while let Some(&id) = self.ready.front() {
-            if firings == firings_max || self.delivered > deliveries_end {
-                self.report(id, Cause::OutOfBudget);
-                return Ran::OutOfBudget {
-                    waiting: self.ready.len() as u32,
+        loop {
+            while !self.batch_over {
+                let Some(&id) = self.ready.front() else {
+                    break;
                 };
+                if self.batch.is_used_up(self.delivered) {
+                    self.report(id, Cause::OutOfBudget);
+                    break;
+                }
+                if firings == firings_max || slice.is_delivered(self.delivered) {
+                    return self.interrupted(firings);
+                }
+                self.ready.pop_front();
+                firings += 1;
+                self.batch.firings_left -= 1;
+                self.fire(id, outside);
             }
-            self.ready.pop_front();
-            firings += 1;
-            self.fire(id, outside);
+            self.batch_over = true;
+            if !self.admit(outside) {
+                break;
+            }
         }
-        Ran::Quiet { firings }
+        if self.ready.is_empty() {
+            Ran::Quiet { firings }
+        } else {
+            self.interrupted(firings)
+        }
+    }
+
+    fn interrupted(&self, firings: u32) -> Ran {
+        Ran::OutOfBudget {
+            firings,
+            waiting: self.ready.len() as u32,
+        }
     }
 
     /// Moves network time and lets the clocks send; nothing fires yet.
-    pub(crate) fn advance(&mut self, now: Now, outside: &mut impl Surroundings) {
+    pub(super) fn advance(&mut self, now: Now, outside: &mut impl Surroundings) {
         self.now = now;
         for index in 0..self.clocks.len() {
             let id = self.clocks[index];
@@ -160,7 +191,7 @@ impl Network {
             }
         };
         let again = instance.ready();
-        self.waiting -= taken;
+        self.behind -= taken;
         if let Some(cause) = cause {
             self.report(id, cause);
         }
@@ -254,7 +285,7 @@ impl Network {
     }
 
     fn deliver_to_function(&mut self, to: InstanceId, input: u8, value: &Value) {
-        let full = self.waiting >= self.limits.waiting_max;
+        let full = self.behind >= self.limits.behind_max;
         let queue_max = self.limits.queue_max;
         let Some(instance) = self.slots.get_mut(to.0 as usize).and_then(Option::as_mut) else {
             return;
@@ -275,13 +306,15 @@ impl Network {
         if port.constant {
             port.hold(value);
             instance.constant_set(input);
+        } else if port.waiting() == 0 {
+            port.push(value);
         } else if full {
             return self.report(to, Cause::NetworkFull);
         } else if port.waiting() >= queue_max {
             return self.report(to, Cause::QueueFull { input: at });
         } else {
             port.push(value);
-            self.waiting += 1;
+            self.behind += 1;
         }
         if !satisfied {
             instance.satisfy_one();
