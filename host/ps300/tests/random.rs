@@ -243,12 +243,11 @@ fn budgets() -> impl Strategy<Value = Vec<u32>> {
 const TO_THE_HOST: &str = "c := F:CLCSECONDS; CONNECT c<1>:<1>a; CONNECT c<1>:<1>D;
     CONNECT a<1>:<1>host; CONNECT b<1>:<2>host; CONNECT e_1<1>:<1>host; CONNECT s<1>:<1>host; CONNECT D<1>:<1>DLABEL1;";
 
-/// All that left the network: watched messages with their times, what reached the host, and the reports.
-fn played(
-    program: &str,
-    acts: &[Act],
-    budgets: &[u32],
-) -> (Vec<Watched>, Vec<(String, u8, Value)>, Vec<String>) {
+/// Watched messages with their times, what reached the host, and the reports.
+type Left = (Vec<Watched>, Vec<(String, u8, Value)>, Vec<String>);
+
+/// All that left the network.
+fn played(program: &str, acts: &[Act], budgets: &[u32]) -> Left {
     let mut machine = Machine::with_limits(limits());
     machine
         .declare_sink("host", &[Kinds::ANY, Kinds::NUMBER])
