@@ -238,13 +238,13 @@ fn names_are_found_in_any_case_and_said_when_missing() {
     assert_eq!(
         errors(
             &mut m,
-            "SEND 1 TO <1>turnr; CONNECT dials<9>:<1>turner; x := F:ADDD; y := F:SPLIT; z := F:ROUTE;"
+            "SEND 1 TO <1>turnr; CONNECT dials<9>:<1>turner; x := F:ADDD; y := F:DEMUX; z := F:ROUTE;"
         ),
         [
             "1:1: error: there is no turnr; did you mean Turner?",
             "1:21: error: dials has no output <9>; it has 8",
             "1:49: error: there is no function F:ADDD; did you mean ADD or ADDC or AND?",
-            "1:62: error: F:SPLIT is known by name only (cuts a string at a delimiter) and cannot be run; \
+            "1:62: error: F:DEMUX is known by name only (took a host's stream of bytes apart) and cannot be run; \
              `dialrig net functions` lists what can",
             "1:76: error: F:ROUTE needs a size from 1 to 127: F:ROUTE(1)",
         ]

@@ -27,7 +27,25 @@ pub(super) const TABLE: &[Spec] = &[
         Confidence::Medium,
         "recollected; upper before lower as in the D0 dial functions",
     )
-    .example("<1> 7 -> <1> 7"),
+    .example("<2> 5 | <3> -5 | <1> 7 | <1> -7 | <1> 1 -> <1> 5 | <1> -5 | <1> 1"),
+    Spec::pure(
+        "RANGE_SELECT",
+        &[
+            InputSpec::active(Kinds::NUMBER),
+            InputSpec::constant(Kinds::NUMBER, Preset::Rule("unbounded")),
+            InputSpec::constant(Kinds::NUMBER, Preset::Rule("unbounded")),
+        ],
+        &[OutputSpec::of(Kinds::NUMBER), OutputSpec::of(Kinds::NUMBER)],
+        range_select,
+    )
+    .says(
+        "The number on output <1> if it is no greater than <2> and no less than <3>, on output <2> if it is.",
+    )
+    .known(
+        Confidence::Low,
+        "recollected: one output in range, one out of it; pins ours, upper before lower as in LIMIT",
+    )
+    .example("<2> 5 | <3> -5 | <1> 3 | <1> 7 -> <1> 3 | <2> 7"),
     Spec::stateful(
         "DELTA",
         &[
@@ -42,7 +60,7 @@ pub(super) const TABLE: &[Spec] = &[
         Confidence::Used,
         "D0 tablet networks, integers with 1; whether equality passes is ours",
     )
-    .example("<1> 1 | <1> 1 -> <1> 1 | <1> 1"),
+    .example("<2> 0.5 | <1> 1 | <1> 1.25 | <1> 1.5 -> <1> 1 | <1> 1.5"),
     Spec::stateful(
         "EDGE_DETECT",
         &[
@@ -68,6 +86,15 @@ fn limit(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
         Value::Integer(_) => outputs.send(1, integer(limited.trunc())?),
         _ => outputs.send(1, limited),
     }
+    Ok(())
+}
+
+fn range_select(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
+    let upper = inputs.number_or(2, f64::INFINITY)?;
+    let lower = inputs.number_or(3, f64::NEG_INFINITY)?;
+    let number = inputs.number(1)?;
+    let within = lower <= number && number <= upper;
+    outputs.send(if within { 1 } else { 2 }, inputs.get(1).clone());
     Ok(())
 }
 

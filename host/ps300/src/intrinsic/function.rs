@@ -43,6 +43,14 @@ pub struct Now {
     pub ticks: u64,
 }
 
+impl Now {
+    /// Network time in whole microseconds. What measures spans counts in these, so that the parts of a span
+    /// add up to it however the host divides its ticks.
+    pub fn micros(self) -> u64 {
+        (self.secs * 1e6).round().max(0.0) as u64
+    }
+}
+
 /// Why a firing came to nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {

@@ -12,15 +12,20 @@ mod clock;
 mod compare;
 mod filter;
 mod function;
+mod gather;
 mod logic;
 mod matrix;
 mod numbers;
 mod recalled;
+mod retype;
 mod rotate;
 mod route;
 mod spec;
+mod stopwatch;
 mod store;
+mod strings;
 mod text;
+mod timeout;
 mod vector;
 mod view;
 
@@ -47,7 +52,11 @@ pub fn table() -> impl Iterator<Item = &'static Spec> {
         matrix::TABLE,
         view::TABLE,
         text::TABLE,
+        strings::TABLE,
+        gather::TABLE,
+        retype::TABLE,
         clock::TABLE,
+        timeout::TABLE,
     ]
     .into_iter()
     .flatten()

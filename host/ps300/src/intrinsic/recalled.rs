@@ -3,6 +3,7 @@
 //! Apart from the functions because a state comes from text that anybody may have written: each value is
 //! checked for its kind, and nothing may be missing or left over.
 
+use super::function::TEXT_MAX_BYTES;
 use crate::value::Value;
 
 /// A state, read value by value.
@@ -12,11 +13,11 @@ pub(super) struct Recalled<'a> {
 
 /// Makes `place` what `read` finds in `state`, or `new` where that is empty. False, and no change, where
 /// it does not fit.
-pub(super) fn restore<T>(
+pub(super) fn restore<'a, T>(
     place: &mut T,
     new: T,
-    state: &[Value],
-    read: impl FnOnce(&mut Recalled<'_>) -> Option<T>,
+    state: &'a [Value],
+    read: impl FnOnce(&mut Recalled<'a>) -> Option<T>,
 ) -> bool {
     let mut recalled = Recalled { rest: state };
     let found = if state.is_empty() {
@@ -57,6 +58,14 @@ impl<'a> Recalled<'a> {
     pub(super) fn boolean(&mut self) -> Option<bool> {
         match self.value()? {
             Value::Boolean(b) => Some(*b),
+            _ => None,
+        }
+    }
+
+    /// Text no longer than what travels.
+    pub(super) fn text(&mut self) -> Option<String> {
+        match self.value()? {
+            Value::String(text) if text.len() <= TEXT_MAX_BYTES => Some(text.to_string()),
             _ => None,
         }
     }

@@ -21,7 +21,8 @@ pub(super) const TABLE: &[Spec] = &[
         .says("Passes messages on.")
         .known(Confidence::Used, "D0 as a sink; passing on recollected")
         .example("<1> 'x' -> <1> 'x'"),
-    Spec::each("PASSTHRU", &[ANY.times(Times::Size)], MANY, pass_one)
+    Spec::pure("PASSTHRU", &[ANY.times(Times::Size)], MANY, pass_one)
+        .each()
         .sized(1, 127)
         .says("Independent wires: a message at any input leaves at once on the output of the same number.")
         .known(Confidence::Medium, "recollected")

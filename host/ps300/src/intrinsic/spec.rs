@@ -26,6 +26,8 @@ pub struct Spec {
     /// A step is `<2> 10`, sent to an input; `@0.5`, network time passing to 0.5 seconds; `(3)`, the size;
     /// or a command. A message is `<1> 11`, or `<1>g 11` where another instance sends it.
     pub example: &'static str,
+    /// Whether any one message sets it off, rather than one at every active input.
+    pub(crate) each: bool,
     pub(crate) does: Does,
 }
 
@@ -33,8 +35,6 @@ pub struct Spec {
 pub(crate) enum Does {
     /// From the inputs alone.
     Pure(fn(&Inputs<'_>, &mut Outputs<'_>) -> Result<(), Fault>),
-    /// From each message by itself: fires when any input has one.
-    Each(fn(&Inputs<'_>, &mut Outputs<'_>) -> Result<(), Fault>),
     /// From the inputs and what the instance remembers. Given the size, 0 for unsized types.
     Stateful(fn(u8) -> Box<dyn Function>),
     /// As `Stateful`, and told of network time.
@@ -61,6 +61,7 @@ impl Spec {
             source: "",
             confidence: Confidence::Project,
             example: "",
+            each: false,
             does,
         }
     }
@@ -73,16 +74,6 @@ impl Spec {
         fire: Fire,
     ) -> Self {
         Self::new(name, inputs, outputs, Does::Pure(fire))
-    }
-
-    /// A function of each message by itself, whichever input it came to.
-    pub(crate) const fn each(
-        name: &'static str,
-        inputs: &'static [InputSpec],
-        outputs: &'static [OutputSpec],
-        fire: Fire,
-    ) -> Self {
-        Self::new(name, inputs, outputs, Does::Each(fire))
     }
 
     /// A function with a memory.
@@ -108,6 +99,13 @@ impl Spec {
     /// The least and the greatest size of a sized type.
     pub(crate) const fn sized(mut self, least: u8, greatest: u8) -> Self {
         self.sizes = Some((least, greatest));
+        self
+    }
+
+    /// Any one message sets it off; the firing sees those that wait, and uses up the one at the first input
+    /// that has one.
+    pub(crate) const fn each(mut self) -> Self {
+        self.each = true;
         self
     }
 
@@ -188,6 +186,8 @@ pub enum Preset {
     Integer(i32),
     /// This real.
     Real(f64),
+    /// This text.
+    Text(&'static str),
     /// No one value: the rule in words.
     Rule(&'static str),
 }
@@ -199,6 +199,7 @@ impl Preset {
             Self::Boolean(b) => Some(Value::Boolean(b)),
             Self::Integer(n) => Some(Value::Integer(n)),
             Self::Real(x) => Some(Value::Real(x)),
+            Self::Text(text) => Some(Value::from(text)),
         }
     }
 
@@ -209,6 +210,7 @@ impl Preset {
             Self::Boolean(b) => Some(if b { "TRUE" } else { "FALSE" }.to_owned()),
             Self::Integer(n) => Some(format!("FIX({n})")),
             Self::Real(x) => Some(format!("{x}")),
+            Self::Text(text) => Some(format!("'{text}'")),
             Self::Rule(words) => Some(words.to_owned()),
         }
     }
@@ -246,6 +248,11 @@ impl InputSpec {
             preset,
             times: Times::Once,
         }
+    }
+
+    /// A constant input that has to be set.
+    pub(crate) const fn required(kinds: Kinds) -> Self {
+        Self::constant(kinds, Preset::Required)
     }
 
     /// The same for several inputs.

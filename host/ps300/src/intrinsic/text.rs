@@ -49,15 +49,20 @@ fn print(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
     match inputs.get(1) {
         text @ Value::String(_) => outputs.send(1, text.clone()),
         value => {
-            let mut text = String::new();
-            write_value(&mut text, value);
-            outputs.send_text(1, &text)?;
+            outputs.send_text(1, &printed(value))?;
         }
     }
     Ok(())
 }
 
-/// A value as PRINT writes it. Numbers in the shortest form that reads back the same.
+/// A value as PRINT writes it.
+pub(super) fn printed(value: &Value) -> String {
+    let mut text = String::new();
+    write_value(&mut text, value);
+    text
+}
+
+/// The same, added to a text. Numbers in the shortest form that reads back the same.
 fn write_value(text: &mut String, value: &Value) {
     // Writing to a string cannot fail.
     let _ = match value {

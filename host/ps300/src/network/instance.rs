@@ -55,10 +55,10 @@ impl Instance {
             inputs: spec.inputs_of(of).map(InputPort::new).collect(),
             outputs: spec.outputs_of(of).map(OutputPort::new).collect(),
             missing: 0,
-            each: matches!(spec.does, Does::Each(_)),
+            each: spec.each,
             queued: false,
             behaviour: match spec.does {
-                Does::Pure(fire) | Does::Each(fire) => Behaviour::Pure(fire),
+                Does::Pure(fire) => Behaviour::Pure(fire),
                 Does::Stateful(make) | Does::Clock(make) => Behaviour::Stateful(make(of)),
             },
         };

@@ -101,6 +101,7 @@ fn sending_a_default_changes_nothing() {
                 Preset::Boolean(b) => Value::from(b),
                 Preset::Integer(n) => n.into(),
                 Preset::Real(x) => x.into(),
+                Preset::Text(text) => text.into(),
                 Preset::Required | Preset::Rule(_) => continue,
             };
             if row.feeds(number) {

@@ -37,11 +37,17 @@ struct FunctionRecord {
     behaviour: &'static str,
     source: &'static str,
     confidence: &'static str,
+    /// What goes in and what comes out.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    example: &'static str,
     /// Least and greatest size of a sized type.
     #[serde(skip_serializing_if = "Option::is_none")]
     sizes: Option<(u8, u8)>,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     absent: bool,
+    /// Why it is absent.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    why: &'static str,
 }
 
 #[derive(Serialize)]
@@ -108,8 +114,10 @@ fn record(spec: &Spec) -> FunctionRecord {
         behaviour: spec.behaviour,
         source: spec.source,
         confidence: spec.confidence.name(),
+        example: spec.example,
         sizes: spec.sizes,
         absent: false,
+        why: "",
     }
 }
 
@@ -123,6 +131,7 @@ fn input_record((number, input): (usize, &InputSpec)) -> InputRecord {
             Preset::Boolean(b) => b.into(),
             Preset::Integer(n) => n.into(),
             Preset::Real(x) => x.into(),
+            Preset::Text(text) => text.into(),
             Preset::Rule(words) => words.into(),
         },
         times: times(input.times),
@@ -145,8 +154,10 @@ fn absent_record(absent: &Absent) -> FunctionRecord {
         behaviour: absent.purpose,
         source: "recollected by name",
         confidence: "low",
+        example: "",
         sizes: None,
         absent: true,
+        why: absent.why,
     }
 }
 
@@ -185,7 +196,7 @@ fn table(rows: &[&Spec], absent: &[&Absent]) -> Table {
             "-".to_owned(),
             "-".to_owned(),
             "absent".to_owned(),
-            format!("Known by name only: {}.", absent.purpose),
+            format!("Absent ({}): {}.", absent.why, absent.purpose),
         ]);
     }
     table

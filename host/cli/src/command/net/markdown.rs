@@ -36,10 +36,10 @@ const READOUTS_HEAD: &str = "
 const ABSENT_HEAD: &str = "
 ## Known by name only
 
-These existed and cannot be run: what they did is not on record, or needs a machine that is not there.
+These existed and cannot be run.
 
-| function | was for |
-|---|---|
+| function | was for | is absent because |
+|---|---|---|
 ";
 
 /// The whole page.
@@ -70,7 +70,7 @@ pub(super) fn page() -> String {
     }
     page.push_str(ABSENT_HEAD);
     for absent in ABSENT {
-        row(&mut page, &[absent.name, absent.purpose]);
+        row(&mut page, &[absent.name, absent.purpose, absent.why]);
     }
     page
 }
@@ -159,7 +159,10 @@ impl Range {
             (Times::Once, Some(_)) => "<n>".to_owned(),
             (Times::Size, after) => {
                 *after = Some(0);
-                format!("<{first}> … <n>")
+                match self.single {
+                    0 => "<1> … <n>".to_owned(),
+                    before => format!("<{first}> … <n+{before}>"),
+                }
             }
             (Times::SizeLessOne, after) => {
                 *after = Some(1);
