@@ -123,8 +123,8 @@ impl Names {
     }
 
     /// Defines the label of a structure's member by its full name.
-    pub(crate) fn define_label(&mut self, name: &Name, node: NodeId) {
-        let id = self.define(name, Thing::Node(node));
+    pub(crate) fn define_label(&mut self, name: &Name, thing: Thing) {
+        let id = self.define(name, thing);
         self.entry_mut(id).owner = Owner::Structure;
     }
 

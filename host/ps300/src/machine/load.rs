@@ -25,6 +25,10 @@ impl Machine {
                 Err(error) => diagnostics.push(Diagnostic::error(*at, error.to_string())),
             }
         }
+        if let Some(last) = commands.last().filter(|_| self.end_groups()) {
+            let message = "BEGIN has no END; the group ends with the text";
+            diagnostics.push(Diagnostic::warning(last.at, message));
+        }
         for (at, name) in referred {
             if self.names.thing(&name).is_none() {
                 let message = format!("{name} is used here and nothing defines it");

@@ -6,10 +6,13 @@
 //! how many firings a host allows in one tick never changes what happens, only when.
 
 mod activity;
+mod copy;
+mod define;
 pub mod devices;
 mod dot;
 mod error;
 mod execute;
+mod group;
 mod load;
 mod panel;
 pub mod picture;
@@ -40,6 +43,7 @@ use crate::network::{
 };
 use crate::structure::{NodeId, Structure, Walk};
 use crate::value::{Kinds, Value};
+use group::Open;
 use panel::Readouts;
 
 /// A PS 300 without its hardware.
@@ -55,6 +59,7 @@ pub struct Machine {
     ticked: Now,
     /// Counts commands that may have changed what there is and how it is joined.
     topology: u64,
+    open: Open,
 }
 
 impl Default for Machine {
@@ -152,6 +157,7 @@ impl Machine {
             displayed: Vec::new(),
             ticked: Now::default(),
             topology: 0,
+            open: Open::default(),
         }
     }
 
@@ -267,9 +273,10 @@ impl Machine {
         &self.panel
     }
 
-    /// Counts changes of the display tree: a picture drawn at the same number is still right.
+    /// Counts changes of the display tree: a picture drawn at the same number is still right. Between BEGIN and
+    /// END it stands still.
     pub fn picture_revision(&self) -> u64 {
-        self.structure.revision
+        self.open.revision(self.structure.revision)
     }
 
     /// Counts changes of what there is and how it is joined: a [`picture::Picture`] made at the same number is

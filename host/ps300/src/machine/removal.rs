@@ -3,9 +3,11 @@
 use std::collections::BTreeSet;
 
 use super::Machine;
+use super::define::Kept;
 use super::execute::Done;
 use crate::language::Name;
 use crate::names::{NameId, Owner, Thing};
+use crate::network::InstanceId;
 use crate::structure::NodeId;
 
 impl Machine {
@@ -18,6 +20,12 @@ impl Machine {
 
     /// Deletes what entries denote, except devices and host parameters.
     pub(super) fn delete_all(&mut self, entries: &[NameId]) {
+        self.delete_all_but(entries, &Kept::new());
+    }
+
+    /// The same, leaving those functions of structures that are kept. They have no name until a structure takes
+    /// them over.
+    pub(super) fn delete_all_but(&mut self, entries: &[NameId], kept: &Kept) {
         let mut instances = BTreeSet::new();
         let mut nodes = BTreeSet::new();
         for &entry in entries {
@@ -28,7 +36,10 @@ impl Machine {
                 Some(Thing::Instance(id)) => {
                     instances.insert(id);
                 }
-                Some(Thing::Node(id)) => nodes.extend(self.structure.remove(id)),
+                Some(Thing::Node(id)) => {
+                    instances.extend(self.drop_functions(id, kept));
+                    nodes.extend(self.structure.remove(id));
+                }
                 _ => {}
             }
             self.names.clear(entry);
@@ -37,6 +48,22 @@ impl Machine {
             self.drop_labels(&nodes);
         }
         self.network.remove(&instances, &nodes);
+    }
+
+    /// Takes the names from the functions of a structure; returns those that go with it.
+    fn drop_functions(&mut self, structure: NodeId, kept: &Kept) -> Vec<InstanceId> {
+        let mut gone = Vec::new();
+        for label in self.structure.functions(structure) {
+            if let Some(entry) = self.names.find(&label)
+                && let Some(Thing::Instance(id)) = self.names.denoted(entry)
+            {
+                self.names.clear(entry);
+                if !kept.contains_key(&label) {
+                    gone.push(id);
+                }
+            }
+        }
+        gone
     }
 
     /// Labels of deleted structures denote nothing any more.

@@ -1,6 +1,7 @@
 //! Commands about the display tree: INCLUDE, REMOVE, DISPLAY, PREFIX, FOLLOW.
 
-use super::execute::{Done, build_error};
+use super::define::build_error;
+use super::execute::Done;
 use super::{ExecuteError, Machine};
 use crate::language::{Name, Operation};
 use crate::names::{NameId, Thing};

@@ -142,6 +142,13 @@ impl Network {
         }
     }
 
+    /// How many more instances there may be.
+    pub(crate) fn room(&self) -> usize {
+        self.limits
+            .instances_max
+            .saturating_sub(self.slots.len() - self.vacant.len())
+    }
+
     /// Makes an instance with empty queues and no connections. Nothing if there are too many.
     pub(crate) fn add(
         &mut self,
@@ -150,7 +157,7 @@ impl Network {
         size: Option<u8>,
         role: Role,
     ) -> Option<InstanceId> {
-        if self.slots.len() - self.vacant.len() >= self.limits.instances_max {
+        if self.room() == 0 {
             return None;
         }
         let instance = Instance::new(name, spec, size, role, self.made);

@@ -82,6 +82,15 @@ impl Structure {
         Ok(self.add(name.clone(), body))
     }
 
+    /// The same with data as messages have left it.
+    pub(crate) fn describe_now(&self, id: NodeId, names: &Names) -> Node {
+        match self.slot(id).map(|slot| &slot.body) {
+            Some(Body::Vectors(list)) => Node::VectorList(list.now().clone()),
+            Some(Body::Characters(characters)) => Node::Characters(characters.now().clone()),
+            _ => self.describe(id, names),
+        }
+    }
+
     /// The node as a command would describe it now. What messages changed is not part of it.
     pub(crate) fn describe(&self, id: NodeId, names: &Names) -> Node {
         let spelt = |id: &crate::names::NameId| names.spelling(*id);

@@ -140,6 +140,20 @@ impl Structure {
         gone
     }
 
+    /// The full names of the functions among the members of a structure, at any depth.
+    pub(crate) fn functions(&self, id: NodeId) -> Vec<Name> {
+        let mut found = Vec::new();
+        let mut open = vec![id];
+        while let Some(slot) = open.pop().and_then(|id| self.slot(id)) {
+            match &slot.body {
+                Body::Structure(members) => open.extend(members.iter().map(|(_, member)| *member)),
+                Body::Unseen(Node::Function { .. }) => found.push(slot.name.clone()),
+                _ => {}
+            }
+        }
+        found
+    }
+
     /// The names directly below a node or its members.
     pub(crate) fn below(&self, id: NodeId) -> Vec<NameId> {
         match self.slot(id).map(|slot| &slot.body) {
@@ -190,6 +204,7 @@ fn what_unseen(node: &Node) -> &'static str {
         Node::Pattern(_) => "PATTERN",
         Node::Font(_) => "FONT",
         Node::Copy { .. } => "COPY",
+        Node::Function { .. } => "FUNCTION",
         _ => "NIL",
     }
 }
