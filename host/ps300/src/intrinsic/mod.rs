@@ -32,8 +32,8 @@ mod view;
 pub use absent::{ABSENT, Absent};
 pub(crate) use function::Errand;
 pub use function::{Fault, Function, Inputs, Now, Outputs, TEXT_MAX_BYTES};
-pub(crate) use spec::Does;
 pub use spec::{Confidence, InputSpec, OutputSpec, Preset, Spec, Times};
+pub(crate) use spec::{Does, Fire, Scalar};
 pub(crate) use store::VARIABLE;
 
 /// Every function that can be instanced, in the order of the reference page.

@@ -14,10 +14,12 @@ const MANY: &[OutputSpec] = &[OUT.times(Times::Size)];
 
 pub(super) const TABLE: &[Spec] = &[
     Spec::pure("CONSTANT", &[ANY, STORED], &[OUT], constant)
+        .scalar(|_, x| x)
         .says("Every message at <1>, of any kind, sends the value of <2>.")
         .known(Confidence::Used, "D0 rendering networks")
         .example("<1> TRUE | <2> 'x' | <1> 5 -> <1> 'x' | <1> 'x'"),
     Spec::pure("NOP", &[ANY], &[OUT], nop)
+        .scalar(|x, _| x)
         .says("Passes messages on.")
         .known(Confidence::Used, "D0 as a sink; passing on recollected")
         .example("<1> 'x' -> <1> 'x'"),

@@ -29,7 +29,13 @@ pub struct Spec {
     /// Whether any one message sets it off, rather than one at every active input.
     pub(crate) each: bool,
     pub(crate) does: Does,
+    /// What it comes to if every input is a real number, for functions of one or two inputs that then send one
+    /// real number on output <1> and nothing else. It must agree with `does`.
+    pub(crate) scalar: Option<Scalar>,
 }
+
+/// A function of real numbers. Of one input, the second argument is nothing.
+pub(crate) type Scalar = fn(f64, f64) -> f64;
 
 /// How a firing is computed.
 pub(crate) enum Does {
@@ -41,7 +47,7 @@ pub(crate) enum Does {
     Clock(fn(u8) -> Box<dyn Function>),
 }
 
-type Fire = fn(&Inputs<'_>, &mut Outputs<'_>) -> Result<(), Fault>;
+pub(crate) type Fire = fn(&Inputs<'_>, &mut Outputs<'_>) -> Result<(), Fault>;
 type Make = fn(u8) -> Box<dyn Function>;
 
 /// Rows are built up; what every row needs is not written out in each.
@@ -63,6 +69,7 @@ impl Spec {
             example: "",
             each: false,
             does,
+            scalar: None,
         }
     }
 
@@ -106,6 +113,12 @@ impl Spec {
     /// that has one.
     pub(crate) const fn each(mut self) -> Self {
         self.each = true;
+        self
+    }
+
+    /// See [`Spec::scalar`].
+    pub(crate) const fn scalar(mut self, scalar: Scalar) -> Self {
+        self.scalar = Some(scalar);
         self
     }
 

@@ -61,7 +61,7 @@ impl OutputActivity {
             sent: port.sent,
             last: port.last.clone(),
             frozen: port.frozen,
-            withheld: port.withheld,
+            withheld: port.withheld.into(),
         }
     }
 }

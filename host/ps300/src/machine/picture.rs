@@ -189,7 +189,7 @@ impl Machine {
         all
     }
 
-    fn instance_box(&self, id: InstanceId, instance: &Instance) -> BoxPicture {
+    fn instance_box(&self, id: InstanceId, instance: Instance<'_>) -> BoxPicture {
         let name = self.spelt(Thing::Instance(id), &instance.name);
         let is_label = self
             .names

@@ -109,7 +109,7 @@ impl Machine {
         }
     }
 
-    fn each_input(&self, numbered: Numbered<'_>, mut visit: impl FnMut(InputOf, &Instance, u8)) {
+    fn each_input(&self, numbered: Numbered<'_>, mut visit: impl FnMut(InputOf, Instance<'_>, u8)) {
         let Numbered { id, instance } = numbered;
         if instance.input_count() == 0 {
             return;

@@ -5,14 +5,15 @@
 //! its share of firings is used up, so that a cycle without end goes on for ever and keeps nobody waiting.
 //! Source: `docs/protocols/ps300.md`, "What dialrig decides".
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
-use super::connection::{Inlet, Outlet};
+use super::connection::{Inlet, InstanceId, Outlet};
 use super::report::Cause;
 use super::run::Surroundings;
 use super::{Network, Ran};
 use crate::intrinsic::Now;
 use crate::language::Name;
+use crate::structure::NodeId;
 use crate::value::Value;
 
 /// Firings are what hosts count, deliveries are what costs time: more of them than this for each firing allowed
@@ -51,6 +52,8 @@ pub(crate) enum Arrival {
     Output(Outlet),
     /// To one input.
     Input(Inlet),
+    /// To what was removed meanwhile.
+    Nowhere,
 }
 
 struct Batch {
@@ -77,7 +80,7 @@ impl Network {
     pub(crate) fn arrive(&mut self, to: Arrival, value: Value, outside: &mut impl Surroundings) {
         self.arrivals.begun = true;
         if self.batch_over && self.arrivals.closed.is_empty() && self.arrivals.open == 0 {
-            self.take_in(to, &value, outside);
+            self.take_in(to, value, outside);
         } else if self.arrivals.messages.len() < self.limits.arrivals_max {
             self.arrivals.messages.push_back((to, value));
             self.arrivals.open += 1;
@@ -97,14 +100,32 @@ impl Network {
                     self.reports
                         .note(&name, || format!("{what} node"), Cause::BacklogFull);
                 }
+                Arrival::Nowhere => {}
             }
         }
     }
 
-    fn take_in(&mut self, to: Arrival, value: &Value, outside: &mut impl Surroundings) {
+    fn take_in(&mut self, to: Arrival, value: Value, outside: &mut impl Surroundings) {
         match to {
             Arrival::Output(from) => self.send_out(from, value, outside),
-            Arrival::Input(inlet) => self.deliver(inlet, value, outside),
+            Arrival::Input(inlet) => self.deliver(inlet, &value, outside),
+            Arrival::Nowhere => {}
+        }
+    }
+
+    /// Lets nothing arrive any more at what is removed.
+    pub(super) fn turn_away(&mut self, instances: &BTreeSet<InstanceId>, nodes: &BTreeSet<NodeId>) {
+        for (to, _) in &mut self.arrivals.messages {
+            let gone = match to {
+                Arrival::Output(Outlet { from: id, .. }) | Arrival::Input(Inlet::Function { to: id, .. }) => {
+                    instances.contains(id)
+                }
+                Arrival::Input(Inlet::Node { to, .. }) => nodes.contains(to),
+                Arrival::Input(Inlet::Sink { .. }) | Arrival::Nowhere => false,
+            };
+            if gone {
+                *to = Arrival::Nowhere;
+            }
         }
     }
 
@@ -148,7 +169,7 @@ impl Network {
         };
         for _ in 0..count {
             if let Some((to, value)) = self.arrivals.messages.pop_front() {
-                self.take_in(to, &value, outside);
+                self.take_in(to, value, outside);
             }
         }
         if let Some(now) = now {

@@ -1,45 +1,70 @@
-//! The two ends of a wire: inputs with their queues, outputs with their destinations.
+//! An input of an instance, with its queue.
 //!
-//! Source: `docs/protocols/ps300.md`, "Tokens, queues, firing".
+//! Source: `docs/protocols/ps300.md`, "Tokens, queues, firing". Why it is laid out so:
+//! `docs/decisions/0014-memory-of-the-network.md`.
 
 use std::collections::VecDeque;
 
-use super::connection::Inlet;
-use crate::intrinsic::{InputSpec, OutputSpec, Preset};
+use super::token::Token;
+use crate::intrinsic::{InputSpec, Preset};
 use crate::value::{Kinds, Value};
 
 /// One input of an instance. Active: a queue, of which a firing consumes the first message.
 /// Constant: the latest message, which firings leave in place.
 pub struct InputPort {
+    /// The constant, or the oldest message.
+    front: Option<Value>,
+    /// The messages behind the oldest. Apart because there are hardly ever any.
+    behind: Option<Box<VecDeque<Value>>>,
     pub(crate) kinds: Kinds,
     pub(crate) constant: bool,
     /// Whether `constant` is what the function's table row says.
     pub(super) as_built: bool,
     /// Whether the constant held was sent rather than preset.
     set: bool,
-    preset: Preset,
-    /// The constant, or the oldest message. Kept apart from the others because there are hardly ever
-    /// others, and a message is as large as a matrix.
-    front: Option<Value>,
-    behind: VecDeque<Value>,
+    /// Whether the function knows what to do without this constant.
+    optional: bool,
 }
 
 impl InputPort {
-    pub(crate) fn new(spec: InputSpec) -> Self {
+    pub(super) fn new(spec: InputSpec) -> Self {
         Self {
+            front: if spec.constant { spec.preset.value() } else { None },
+            behind: None,
             kinds: spec.kinds,
             constant: spec.constant,
             as_built: true,
             set: false,
-            preset: spec.preset,
-            front: if spec.constant { spec.preset.value() } else { None },
-            behind: VecDeque::new(),
+            optional: matches!(spec.preset, Preset::Rule(_)),
+        }
+    }
+
+    /// What is left of a port whose instance is gone.
+    pub(super) fn vacant() -> Self {
+        Self {
+            front: None,
+            behind: None,
+            kinds: Kinds::NONE,
+            constant: true,
+            as_built: true,
+            set: false,
+            optional: false,
         }
     }
 
     /// What the next firing would see here.
+    #[inline]
     pub(crate) fn front(&self) -> Option<&Value> {
         self.front.as_ref()
+    }
+
+    /// The real number that the next firing would see here, if it is one.
+    #[inline]
+    pub(super) fn real(&self) -> Option<f64> {
+        match self.front {
+            Some(Value::Real(x)) => Some(x),
+            _ => None,
+        }
     }
 
     /// Whether somebody sent the constant that is held.
@@ -49,32 +74,53 @@ impl InputPort {
 
     /// Whether this input lets a firing happen.
     pub(super) fn satisfied(&self) -> bool {
-        self.front.is_some() || (self.constant && matches!(self.preset, Preset::Rule(_)))
+        self.front.is_some() || (self.constant && self.optional)
     }
 
     /// Replaces the constant.
-    pub(super) fn hold(&mut self, value: &Value) {
-        copy(value, &mut self.front);
+    pub(super) fn hold(&mut self, value: Value) {
+        self.front = Some(value);
         self.set = true;
     }
 
-    pub(super) fn push(&mut self, value: &Value) {
-        if self.front.is_none() {
-            copy(value, &mut self.front);
-        } else {
-            self.behind.push_back(value.clone());
+    /// Takes a message if none waits here.
+    #[inline]
+    pub(super) fn take_first(&mut self, token: &impl Token) -> bool {
+        let free = !self.constant && self.front.is_none();
+        if free {
+            token.put(&mut self.front);
         }
+        free
     }
 
-    /// Takes the oldest message of an active input. Returns how many (0 or 1) moved up from behind it.
-    pub(super) fn pop(&mut self) -> usize {
-        self.front = self.behind.pop_front();
-        usize::from(self.front.is_some())
+    /// Takes a message that has to wait behind others.
+    pub(super) fn push_behind(&mut self, value: Value) {
+        self.behind.get_or_insert_default().push_back(value);
+    }
+
+    /// Takes the oldest message of an active input. Returns whether another moved up from behind it.
+    #[inline]
+    pub(super) fn pop(&mut self) -> bool {
+        if self.behind.is_none() {
+            match &self.front {
+                // Nothing to drop, which is worth saying: it is what nearly every message is.
+                Some(Value::Real(_)) => std::mem::forget(self.front.take()),
+                _ => self.front = None,
+            }
+            return false;
+        }
+        self.move_up()
+    }
+
+    #[cold]
+    fn move_up(&mut self) -> bool {
+        self.front = self.behind.as_mut().and_then(|behind| behind.pop_front());
+        self.front.is_some()
     }
 
     /// How many messages wait behind the oldest.
     pub(super) fn behind(&self) -> usize {
-        self.behind.len()
+        self.behind.as_ref().map_or(0, |behind| behind.len())
     }
 
     /// How many messages wait; a constant does not wait.
@@ -82,76 +128,34 @@ impl InputPort {
         if self.constant {
             0
         } else {
-            usize::from(self.front.is_some()) + self.behind.len()
+            usize::from(self.front.is_some()) + self.behind()
         }
     }
 
     pub(super) fn queued(&self) -> impl Iterator<Item = &Value> {
-        self.front.iter().filter(|_| !self.constant).chain(&self.behind)
+        let behind = self.behind.iter().flat_map(|behind| behind.iter());
+        self.front.iter().filter(|_| !self.constant).chain(behind)
     }
 
     pub(super) fn held_if_set(&self) -> Option<&Value> {
         self.front.as_ref().filter(|_| self.constant && self.set)
     }
 
-    /// SETUP CNESS. An input made constant keeps its newest message; one made active starts empty.
-    /// Returns how many went that waited behind another.
-    pub(super) fn make_constant(&mut self, constant: bool) -> usize {
+    /// SETUP CNESS. An input made constant keeps its newest message, or has the `preset`; one made active starts
+    /// empty. Returns how many went that waited behind another.
+    pub(super) fn make_constant(&mut self, constant: bool, preset: Preset) -> usize {
         if constant == self.constant {
             return 0;
         }
-        let gone = self.behind.len();
-        let newest = self.behind.pop_back().or(self.front.take());
+        let gone = self.behind();
+        let newest = self.behind.take().and_then(|mut behind| behind.pop_back());
+        let newest = newest.or(self.front.take());
         self.constant = constant;
         self.as_built = !self.as_built;
         self.set = constant && newest.is_some();
-        self.front = if constant {
-            newest.or(self.preset.value())
-        } else {
-            None
-        };
-        self.behind.clear();
-        gone
-    }
-}
-
-/// Clones into a place. The small kinds are named so that they are not moved as if they were matrices.
-#[inline]
-pub(super) fn copy(value: &Value, into: &mut Option<Value>) {
-    match value {
-        Value::Real(x) => *into = Some(Value::Real(*x)),
-        Value::Integer(n) => *into = Some(Value::Integer(*n)),
-        Value::Boolean(b) => *into = Some(Value::Boolean(*b)),
-        Value::Vector3(v) => *into = Some(Value::Vector3(*v)),
-        large => *into = Some(large.clone()),
-    }
-}
-
-/// One output of an instance or a device.
-pub(crate) struct OutputPort {
-    pub(crate) kinds: Kinds,
-    /// In the order of CONNECT, which is the order of delivery.
-    pub(super) to: Vec<Inlet>,
-    pub(super) watched: bool,
-    pub(crate) last: Option<Value>,
-    /// Messages sent so far.
-    pub(crate) sent: u64,
-    /// Whether what it would send is withheld.
-    pub(crate) frozen: bool,
-    /// Messages withheld so far.
-    pub(crate) withheld: u64,
-}
-
-impl OutputPort {
-    pub(super) fn new(spec: OutputSpec) -> Self {
-        Self {
-            kinds: spec.kinds,
-            to: Vec::new(),
-            watched: false,
-            last: None,
-            sent: 0,
-            frozen: false,
-            withheld: 0,
+        if constant {
+            self.front = newest.or(preset.value());
         }
+        gone
     }
 }

@@ -11,11 +11,10 @@
 
 use super::batch::Allowance;
 use super::connection::{Inlet, InstanceId, Outlet, SinkId};
-use super::port::copy;
-use super::{Cause, Network, Watched};
-use crate::intrinsic::{Errand, Fault, Now, Outputs};
-use crate::language::Input;
-use crate::language::Name;
+use super::instance::Behaviour;
+use super::{Cause, Network};
+use crate::intrinsic::{Fault, Inputs, Now, Outputs};
+use crate::language::{Input, Name};
 use crate::structure::NodeId;
 use crate::value::{Kinds, Value};
 
@@ -73,7 +72,7 @@ impl Network {
         let mut firings = 0;
         loop {
             while !self.batch_over {
-                let Some(&id) = self.ready.front() else {
+                let Some(id) = self.queues.ready.front() else {
                     break;
                 };
                 if self.batch.is_used_up(self.delivered) {
@@ -83,7 +82,7 @@ impl Network {
                 if firings == firings_max || slice.is_delivered(self.delivered) {
                     return self.interrupted(firings);
                 }
-                self.ready.pop_front();
+                self.queues.ready.pop();
                 firings += 1;
                 self.batch.firings_left -= 1;
                 self.fire(id, outside);
@@ -93,7 +92,7 @@ impl Network {
                 break;
             }
         }
-        if self.ready.is_empty() {
+        if self.queues.ready.is_empty() {
             Ran::Quiet { firings }
         } else {
             self.interrupted(firings)
@@ -103,7 +102,7 @@ impl Network {
     fn interrupted(&self, firings: u32) -> Ran {
         Ran::OutOfBudget {
             firings,
-            waiting: self.ready.len() as u32,
+            waiting: self.queues.ready.len() as u32,
         }
     }
 
@@ -112,273 +111,88 @@ impl Network {
         self.now = now;
         for index in 0..self.clocks.len() {
             let id = self.clocks[index];
-            let advance =
-                |instance: &mut super::Instance, outputs: &mut Outputs<'_>| instance.advance(now, outputs);
-            self.act(id, outside, advance, Self::note_fault);
+            if let Err(Fault::Domain { why }) =
+                self.act(id, |clock, inputs, outputs| clock.advance(now, inputs, outputs))
+            {
+                self.report(id, Cause::Domain { why });
+            }
+            self.send_all(id, outside);
         }
     }
 
+    #[inline]
     fn fire(&mut self, id: InstanceId, outside: &mut impl Surroundings) {
-        let Some(instance) = self.instance_mut(id) else {
+        let Some(head) = self.queues.heads.get_mut(id.0 as usize) else {
             return;
         };
-        instance.queued = false;
-        // SETUP CNESS may have come between becoming ready and firing.
-        if instance.ready() {
-            self.act(id, outside, super::Instance::fire, Self::consume);
+        head.queued = false;
+        if let Some((at, result)) = self.queues.fire_scalar(id) {
+            self.send_at(Outlet { from: id, output: 1 }, at as usize, result, outside);
+        } else if self.queues.is_ready(id) {
+            // If not, SETUP CNESS has come between becoming ready and firing.
+            self.fire_any(id, outside);
         }
     }
 
-    /// Lets an instance send, settles its inputs, and delivers what it sent.
-    fn act<S: Surroundings>(
-        &mut self,
-        id: InstanceId,
-        outside: &mut S,
-        act: impl FnOnce(&mut super::Instance, &mut Outputs<'_>) -> Result<(), Fault>,
-        settle: fn(&mut Self, InstanceId, &Result<(), Fault>),
-    ) {
-        let mut sent = std::mem::take(&mut self.sent);
-        let mut errands = std::mem::take(&mut self.errands);
-        if let Some(instance) = self.instance_mut(id) {
-            let result = act(instance, &mut Outputs::new(&mut sent, &mut errands));
-            settle(self, id, &result);
-        }
-        for (output, value) in &sent {
-            self.send_out(
-                Outlet {
-                    from: id,
-                    output: *output,
-                },
-                value,
-                outside,
-            );
-        }
-        sent.clear();
-        for errand in errands.drain(..) {
-            self.run_errand(id, errand, outside);
-        }
-        self.sent = sent;
-        self.errands = errands;
-    }
-
-    fn note_fault(&mut self, id: InstanceId, result: &Result<(), Fault>) {
-        if let Err(Fault::Domain { why }) = *result {
-            self.report(id, Cause::Domain { why });
-        }
-    }
-
-    fn consume(&mut self, id: InstanceId, result: &Result<(), Fault>) {
-        let Some(instance) = self.slots.get_mut(id.0 as usize).and_then(Option::as_mut) else {
-            return;
-        };
-        let mut cause = None;
-        let taken = match *result {
-            Ok(()) => instance.consume(),
+    fn fire_any(&mut self, id: InstanceId, outside: &mut impl Surroundings) {
+        let cause = match self.act(id, Behaviour::fire) {
+            Ok(()) => {
+                self.queues.consume(id);
+                None
+            }
             Err(Fault::Domain { why }) => {
-                cause = Some(Cause::Domain { why });
-                instance.consume()
+                self.queues.consume(id);
+                Some(Cause::Domain { why })
             }
             Err(Fault::Kind { input, expected }) => {
-                let port = instance.inputs.get(usize::from(input).wrapping_sub(1));
-                if let Some(got) = port.and_then(|port| port.front()).map(Value::kind) {
-                    cause = Some(Cause::Kind {
-                        input: Input::Number(input.into()),
-                        expected,
-                        got,
-                    });
-                }
-                instance.consume_offending(input)
+                let port = self.queues.ports(id).get(usize::from(input).wrapping_sub(1));
+                let got = port.and_then(|port| port.front()).map(Value::kind);
+                self.queues.consume_offending(id, input);
+                got.map(|got| Cause::Kind {
+                    input: Input::Number(input.into()),
+                    expected,
+                    got,
+                })
             }
         };
-        let again = instance.ready();
-        self.behind -= taken;
         if let Some(cause) = cause {
             self.report(id, cause);
         }
-        if again {
-            self.enqueue(id);
-        }
+        self.queues.enqueue_if_ready(id);
+        self.send_all(id, outside);
     }
 
-    pub(super) fn enqueue(&mut self, id: InstanceId) {
-        if let Some(instance) = self.instance_mut(id)
-            && !instance.queued
-        {
-            instance.queued = true;
-            self.ready.push_back(id);
-        }
-    }
-
-    /// Sends on an output: to every destination in the order of CONNECT.
-    pub(crate) fn send_out(&mut self, from: Outlet, value: &Value, outside: &mut impl Surroundings) {
-        if !value.is_finite() {
-            self.report(from.from, Cause::NotFinite);
-            return;
-        }
-        let port = usize::from(from.output).wrapping_sub(1);
-        let Some(output) = self
-            .instance_mut(from.from)
-            .and_then(|it| it.outputs.get_mut(port))
-        else {
-            return;
+    /// Lets an instance compute what it sends.
+    fn act(
+        &mut self,
+        id: InstanceId,
+        act: impl FnOnce(&mut Behaviour, &Inputs<'_>, &mut Outputs<'_>) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        let Some(behaviour) = self.behaviours.get_mut(id.0 as usize) else {
+            return Ok(());
         };
-        if output.frozen {
-            output.withheld += 1;
-            return;
-        }
-        output.sent += 1;
-        copy(value, &mut output.last);
-        let watched = output.watched;
-        let to = std::mem::take(&mut output.to);
-        if watched {
-            self.record(from, value);
-        }
-        for &inlet in &to {
-            self.deliver(inlet, value, outside);
-        }
-        // Delivering only queues: nothing ran that could have changed the connections.
-        if let Some(output) = self
-            .instance_mut(from.from)
-            .and_then(|it| it.outputs.get_mut(port))
-        {
-            output.to = to;
-        }
+        let size = self.queues.head(id).map_or(0, |head| head.size);
+        let inputs = Inputs::new(self.queues.ports(id), size);
+        act(
+            behaviour,
+            &inputs,
+            &mut Outputs::new(&mut self.sent, &mut self.errands),
+        )
     }
 
-    fn record(&mut self, from: Outlet, value: &Value) {
-        let Some(instance) = self.instance(from.from) else {
-            return;
-        };
-        if self.watched.len() >= self.limits.undrained_max {
-            return self.report(from.from, Cause::Unwatched);
+    /// Delivers what an instance has computed.
+    fn send_all(&mut self, id: InstanceId, outside: &mut impl Surroundings) {
+        let mut sent = std::mem::take(&mut self.sent);
+        for (output, value) in sent.drain(..) {
+            self.send_out(Outlet { from: id, output }, value, outside);
         }
-        let (secs, name) = (self.now.secs, instance.name.clone());
-        self.watched.push_back(Watched {
-            secs,
-            name,
-            output: from.output,
-            value: value.clone(),
-        });
-    }
-
-    /// Hands one message to one input; what does not fit is dropped and reported.
-    pub(crate) fn deliver(&mut self, inlet: Inlet, value: &Value, outside: &mut impl Surroundings) {
-        self.delivered += 1;
-        match inlet {
-            Inlet::Function { to, input } => self.deliver_to_function(to, input, value),
-            Inlet::Sink { to, input } => self.deliver_to_sink(to, input, value, outside),
-            Inlet::Node { to, input } => {
-                if let Err(refusal) = outside.node(to, input, value) {
-                    let (name, what) = outside.node_name(to);
-                    let cause = match refusal {
-                        Refusal::Kind(expected) => Cause::Kind {
-                            input,
-                            expected,
-                            got: value.kind(),
-                        },
-                        Refusal::Domain(why) => Cause::Domain { why },
-                    };
-                    self.reports.note(&name, || format!("{what} node"), cause);
-                }
+        self.sent = sent;
+        if !self.errands.is_empty() {
+            let mut errands = std::mem::take(&mut self.errands);
+            for errand in errands.drain(..) {
+                self.run_errand(id, errand, outside);
             }
-        }
-    }
-
-    fn deliver_to_function(&mut self, to: InstanceId, input: u8, value: &Value) {
-        let full = self.behind >= self.limits.behind_max;
-        let queue_max = self.limits.queue_max;
-        let Some(instance) = self.slots.get_mut(to.0 as usize).and_then(Option::as_mut) else {
-            return;
-        };
-        let Some(port) = instance.inputs.get_mut(usize::from(input).wrapping_sub(1)) else {
-            return;
-        };
-        let at = Input::Number(input.into());
-        if !port.kinds.has(value.kind()) {
-            let cause = Cause::Kind {
-                input: at,
-                expected: port.kinds,
-                got: value.kind(),
-            };
-            return self.report(to, cause);
-        }
-        let satisfied = port.satisfied();
-        if port.constant {
-            port.hold(value);
-            instance.constant_set(input);
-        } else if port.waiting() == 0 {
-            port.push(value);
-        } else if full {
-            return self.report(to, Cause::NetworkFull);
-        } else if port.waiting() >= queue_max {
-            return self.report(to, Cause::QueueFull { input: at });
-        } else {
-            port.push(value);
-            self.behind += 1;
-        }
-        if !satisfied {
-            instance.satisfy_one();
-            if instance.ready() && !instance.queued {
-                instance.queued = true;
-                self.ready.push_back(to);
-            }
-        }
-    }
-
-    fn deliver_to_sink(&mut self, to: SinkId, input: u8, value: &Value, outside: &mut impl Surroundings) {
-        let Some(port) = self.sink_input_mut(to, input) else {
-            return;
-        };
-        let (expected, fits) = (port.kinds, port.kinds.has(value.kind()));
-        if fits {
-            port.last = Some(value.clone());
-            outside.sink_arrived(to, value);
-        }
-        let at = Input::Number(input.into());
-        let cause = if !fits {
-            Cause::Kind {
-                input: at,
-                expected,
-                got: value.kind(),
-            }
-        } else if self.arrived.len() >= self.limits.undrained_max {
-            Cause::QueueFull { input: at }
-        } else {
-            return self.arrived.push_back((to, input, value.clone()));
-        };
-        if let Some(sink) = self.sinks.get(to.0 as usize) {
-            self.reports.note(&sink.name, || "host input".to_owned(), cause);
-        }
-    }
-
-    fn run_errand(&mut self, from: InstanceId, errand: Errand, outside: &mut impl Surroundings) {
-        match errand {
-            Errand::Send { name, input, value } => match outside.inlet(&name, input) {
-                Some(inlet) => self.deliver(inlet, &value, outside),
-                None => self.report(
-                    from,
-                    Cause::Unknown {
-                        name: name.to_string(),
-                    },
-                ),
-            },
-            Errand::Fetch { name, output } => {
-                match outside.variable(&name).and_then(|id| self.held(id)).cloned() {
-                    Some(value) => self.send_out(Outlet { from, output }, &value, outside),
-                    None => self.report(
-                        from,
-                        Cause::Unknown {
-                            name: name.to_string(),
-                        },
-                    ),
-                }
-            }
-        }
-    }
-
-    pub(crate) fn report(&mut self, id: InstanceId, cause: Cause) {
-        if let Some(instance) = self.slots.get(id.0 as usize).and_then(Option::as_ref) {
-            self.reports.note(&instance.name, || instance.what(), cause);
+            self.errands = errands;
         }
     }
 }

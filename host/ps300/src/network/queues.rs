@@ -1,0 +1,297 @@
+//! What waits at the inputs, and who is ready to fire.
+//!
+//! Only what every message touches: all else about an instance is kept apart from it.
+//! Source: `docs/protocols/ps300.md`, "Tokens, queues, firing"; the layout is explained in
+//! `docs/decisions/0014-memory-of-the-network.md`.
+
+use std::collections::BTreeSet;
+
+use super::Limits;
+use super::connection::InstanceId;
+use super::port::InputPort;
+use super::ring::Ring;
+use super::token::Token;
+use crate::intrinsic::{Preset, Scalar};
+use crate::value::{Kinds, Value};
+
+/// What delivering to an instance and firing it need to know.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Head {
+    /// What it does if all inputs are real numbers.
+    pub(super) scalar: Option<Scalar>,
+    pub(super) first_input: u32,
+    pub(super) first_output: u32,
+    pub(super) input_count: u8,
+    pub(super) output_count: u8,
+    /// How many inputs still keep it from firing.
+    pub(super) missing: u8,
+    /// Of a sized type; 0 for others.
+    pub(super) size: u8,
+    /// Whether any one message sets it off.
+    pub(super) each: bool,
+    /// Whether it is in the run queue.
+    pub(super) queued: bool,
+}
+
+impl Head {
+    pub(super) fn inputs(&self) -> std::ops::Range<usize> {
+        let first = self.first_input as usize;
+        first..first + usize::from(self.input_count)
+    }
+
+    pub(super) fn outputs(&self) -> std::ops::Range<usize> {
+        let first = self.first_output as usize;
+        first..first + usize::from(self.output_count)
+    }
+}
+
+/// Why a message was not simply put into an empty queue.
+#[derive(Clone, Copy)]
+pub(super) enum Hindrance {
+    /// The input takes only these.
+    Kind(Kinds),
+    /// The input is constant.
+    Constant,
+    /// Others are waiting there.
+    Occupied,
+}
+
+/// A queue that could not take a message.
+#[derive(Clone, Copy)]
+pub(super) enum Full {
+    Queue,
+    Network,
+}
+
+/// The inputs of all instances and the run queue.
+pub(super) struct Queues {
+    pub(super) heads: Vec<Head>,
+    pub(super) inputs: Vec<InputPort>,
+    pub(super) ready: Ring,
+    /// Messages waiting behind another.
+    behind: usize,
+    queue_max: usize,
+    behind_max: usize,
+}
+
+impl Queues {
+    pub(super) fn new(limits: &Limits) -> Self {
+        Self {
+            heads: Vec::new(),
+            inputs: Vec::new(),
+            ready: Ring::default(),
+            behind: 0,
+            queue_max: limits.queue_max,
+            behind_max: limits.behind_max,
+        }
+    }
+
+    pub(super) fn head(&self, id: InstanceId) -> Option<&Head> {
+        self.heads.get(id.0 as usize)
+    }
+
+    /// The inputs of an instance.
+    pub(super) fn ports(&self, id: InstanceId) -> &[InputPort] {
+        self.head(id)
+            .and_then(|head| self.inputs.get(head.inputs()))
+            .unwrap_or_default()
+    }
+
+    fn ports_mut(&mut self, id: InstanceId) -> &mut [InputPort] {
+        let inputs = self.heads.get(id.0 as usize).map(Head::inputs);
+        inputs
+            .and_then(|inputs| self.inputs.get_mut(inputs))
+            .unwrap_or_default()
+    }
+
+    /// Puts a message into an empty queue, or says what else there is to do.
+    #[inline]
+    pub(super) fn deliver(&mut self, to: InstanceId, input: u8, token: &impl Token) -> Result<(), Hindrance> {
+        let Some(head) = self.heads.get_mut(to.0 as usize) else {
+            return Ok(());
+        };
+        let number = input.wrapping_sub(1);
+        if number >= head.input_count {
+            return Ok(());
+        }
+        let Some(port) = self
+            .inputs
+            .get_mut(head.first_input as usize + usize::from(number))
+        else {
+            return Ok(());
+        };
+        if !port.kinds.has(token.kind()) {
+            return Err(Hindrance::Kind(port.kinds));
+        }
+        if !port.take_first(token) {
+            return Err(if port.constant {
+                Hindrance::Constant
+            } else {
+                Hindrance::Occupied
+            });
+        }
+        head.missing = head.missing.saturating_sub(1);
+        if (head.missing == 0 || head.each) && !head.queued {
+            head.queued = true;
+            self.ready.push(to);
+        }
+        Ok(())
+    }
+
+    /// Puts a message behind others.
+    pub(super) fn deliver_behind(&mut self, to: InstanceId, input: u8, value: Value) -> Result<(), Full> {
+        let (behind, behind_max, queue_max) = (self.behind, self.behind_max, self.queue_max);
+        let Some(port) = self.port_mut(to, input) else {
+            return Ok(());
+        };
+        if behind >= behind_max {
+            return Err(Full::Network);
+        }
+        if port.waiting() >= queue_max {
+            return Err(Full::Queue);
+        }
+        port.push_behind(value);
+        self.behind += 1;
+        Ok(())
+    }
+
+    /// Replaces a constant.
+    pub(super) fn hold(&mut self, to: InstanceId, input: u8, value: Value) {
+        let Some(port) = self.port_mut(to, input) else {
+            return;
+        };
+        let satisfied = port.satisfied();
+        port.hold(value);
+        if !satisfied && let Some(head) = self.heads.get_mut(to.0 as usize) {
+            head.missing = head.missing.saturating_sub(1);
+            self.enqueue_if_ready(to);
+        }
+    }
+
+    fn port_mut(&mut self, of: InstanceId, input: u8) -> Option<&mut InputPort> {
+        self.ports_mut(of).get_mut(usize::from(input).checked_sub(1)?)
+    }
+
+    pub(super) fn is_ready(&self, id: InstanceId) -> bool {
+        let Some(head) = self.head(id) else {
+            return false;
+        };
+        head.missing == 0 || (head.each && self.ports(id).iter().any(|port| port.waiting() > 0))
+    }
+
+    pub(super) fn enqueue_if_ready(&mut self, id: InstanceId) {
+        if self.is_ready(id)
+            && let Some(head) = self.heads.get_mut(id.0 as usize)
+            && !head.queued
+        {
+            head.queued = true;
+            self.ready.push(id);
+        }
+    }
+
+    /// What an instance that works on real numbers sends, if that is what waits; then its inputs are settled.
+    #[inline]
+    pub(super) fn fire_scalar(&mut self, id: InstanceId) -> Option<(u32, f64)> {
+        let head = self.heads.get_mut(id.0 as usize)?;
+        let scalar = head.scalar?;
+        let ports = self.inputs.get_mut(head.inputs())?;
+        let result = match ports {
+            [only] => scalar(only.real()?, 0.0),
+            [first, second] => scalar(first.real()?, second.real()?),
+            _ => return None,
+        };
+        for port in ports.iter_mut().filter(|port| !port.constant) {
+            if port.pop() {
+                self.behind -= 1;
+            } else {
+                head.missing += 1;
+            }
+        }
+        if head.missing == 0 {
+            head.queued = true;
+            self.ready.push(id);
+        }
+        Some((head.first_output, result))
+    }
+
+    /// Takes one message from every active queue, or of an instance that any one message sets off, that one.
+    pub(super) fn consume(&mut self, id: InstanceId) {
+        if self.head(id).is_some_and(|head| head.each) {
+            let first = self.ports(id).iter().position(|port| port.waiting() > 0);
+            if let Some(at) = first {
+                self.pop(id, at);
+            }
+            return;
+        }
+        for at in 0..self.ports(id).len() {
+            self.pop(id, at);
+        }
+    }
+
+    /// Takes the one message that did not fit: at `input`, or, where that is a constant, at the first
+    /// active input.
+    pub(super) fn consume_offending(&mut self, id: InstanceId, input: u8) {
+        let blamed = usize::from(input).wrapping_sub(1);
+        let ports = self.ports(id);
+        let at = match ports.get(blamed) {
+            Some(port) if !port.constant => Some(blamed),
+            _ => ports.iter().position(|port| !port.constant),
+        };
+        if let Some(at) = at {
+            self.pop(id, at);
+        }
+    }
+
+    fn pop(&mut self, id: InstanceId, at: usize) {
+        let Some(head) = self.heads.get_mut(id.0 as usize) else {
+            return;
+        };
+        let Some(port) = self.inputs.get_mut(head.first_input as usize + at) else {
+            return;
+        };
+        if port.waiting() == 0 {
+        } else if port.pop() {
+            self.behind -= 1;
+        } else {
+            head.missing = head.missing.saturating_add(1);
+        }
+    }
+
+    /// Makes an input constant or active; false if there is no such input.
+    pub(super) fn set_constant(&mut self, id: InstanceId, input: u8, constant: bool, preset: Preset) -> bool {
+        let Some(port) = self.port_mut(id, input) else {
+            return false;
+        };
+        self.behind -= port.make_constant(constant, preset);
+        self.recount(id);
+        self.enqueue_if_ready(id);
+        true
+    }
+
+    pub(super) fn recount(&mut self, id: InstanceId) {
+        let ports = self.ports(id);
+        let unsatisfied = ports.iter().filter(|port| !port.satisfied()).count();
+        // If all are constant, nothing is left that could set it off.
+        let missing = unsatisfied + usize::from(ports.iter().all(|port| port.constant));
+        if let Some(head) = self.heads.get_mut(id.0 as usize) {
+            head.missing = missing as u8;
+        }
+    }
+
+    /// Forgets all that waits for some instances. Their ports are left vacant.
+    pub(super) fn clear(&mut self, ids: &BTreeSet<InstanceId>) {
+        let mut any_queued = false;
+        for &id in ids {
+            let behind: usize = self.ports(id).iter().map(InputPort::behind).sum();
+            self.behind -= behind;
+            self.ports_mut(id).fill_with(InputPort::vacant);
+            if let Some(head) = self.heads.get_mut(id.0 as usize) {
+                any_queued |= head.queued;
+                *head = Head::default();
+            }
+        }
+        if any_queued {
+            self.ready.retain(|id| !ids.contains(&id));
+        }
+    }
+}
