@@ -190,7 +190,7 @@ impl Machine {
     }
 
     fn instance_box(&self, id: InstanceId, instance: Instance<'_>) -> BoxPicture {
-        let name = self.spelt(Thing::Instance(id), &instance.name);
+        let name = self.spelt(Thing::Instance(id), instance.name);
         let is_label = self
             .names
             .find(&name)

@@ -119,7 +119,7 @@ impl Machine {
 
     fn print_wires(&self, program: &mut Vec<Command>) {
         for Numbered { id, instance } in self.network.instances() {
-            let name = self.spelt(Thing::Instance(id), &instance.name);
+            let name = self.spelt(Thing::Instance(id), instance.name);
             for output in 1..=instance.output_count() as u8 {
                 for (to, inlet) in self
                     .destinations(id, output)

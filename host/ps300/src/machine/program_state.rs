@@ -35,7 +35,7 @@ impl Machine {
         for Numbered { id, instance } in self.network.instances() {
             let values = instance.remembered();
             if !values.is_empty() && values.iter().all(has_literal) {
-                let name = self.spelt(Thing::Instance(id), &instance.name);
+                let name = self.spelt(Thing::Instance(id), instance.name);
                 program.push(Command::SetupState { name, values });
             }
         }
@@ -114,7 +114,7 @@ impl Machine {
         if instance.input_count() == 0 {
             return;
         }
-        let name = self.spelt(Thing::Instance(id), &instance.name);
+        let name = self.spelt(Thing::Instance(id), instance.name);
         for input in 1..=instance.input_count() as u8 {
             let at = InputOf {
                 name: name.clone(),

@@ -155,7 +155,7 @@ impl Machine {
             })
             .collect();
         InstanceView {
-            name: &instance.name,
+            name: instance.name,
             spec: instance.spec,
             size: instance.size,
             role: instance.role,

@@ -20,6 +20,10 @@ pub(crate) struct OutputPort {
 
 /// What an output feeds, in the order of CONNECT, which is the order of delivery. Most feed one input, which is
 /// found without going elsewhere.
+#[allow(
+    clippy::box_collection,
+    reason = "an output is half as large again with the list in it, and hardly any has one"
+)]
 #[derive(Default)]
 enum Fed {
     #[default]

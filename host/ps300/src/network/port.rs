@@ -11,6 +11,11 @@ use crate::value::{Kinds, Value};
 
 /// One input of an instance. Active: a queue, of which a firing consumes the first message.
 /// Constant: the latest message, which firings leave in place.
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
+#[allow(
+    clippy::box_collection,
+    reason = "an input is half as large again with the queue in it, and hardly any has one"
+)]
 pub struct InputPort {
     /// The constant, or the oldest message.
     front: Option<Value>,

@@ -115,7 +115,7 @@ impl Network {
     ) {
         match (inlet, hindrance) {
             (Inlet::Function { to, input }, Some(hindrance)) => {
-                self.deliver_hindered(to, input, hindrance, value)
+                self.deliver_hindered(to, input, hindrance, value);
             }
             (Inlet::Function { .. }, None) => {}
             (Inlet::Sink { to, input }, _) => self.deliver_to_sink(to, input, value, outside),
