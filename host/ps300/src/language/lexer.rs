@@ -143,10 +143,12 @@ impl<'s> Lexer<'s> {
 
     fn text(&mut self, quote: char, reports: &mut Reports) -> TokenKind<'s> {
         let at = self.at;
-        let line_length = self.rest.find('\n').unwrap_or(self.rest.len());
         let mut length = 1;
         loop {
-            let Some(found) = self.rest[length..line_length].find(quote) else {
+            // Not the whole line first: a long line of many texts would be searched again for each.
+            let found = self.rest[length..].find([quote, '\n']);
+            let Some(found) = found.filter(|&found| self.rest[length + found..].starts_with(quote)) else {
+                let line_length = found.map_or(self.rest.len(), |found| length + found);
                 self.owed_semicolon = self.rest[..line_length].contains(';');
                 self.take(line_length);
                 reports.push(
