@@ -219,7 +219,7 @@ const FORMS: &[(&str, &str)] = &[
         "a := set line around 85;",
         "a := SET LINE_TEXTURE AROUND_CORNERS 85;",
     ),
-    ("a := set color ble .5;", "a := SET COLOR BLENDING 0.5;"),
+    ("a := set color blen .5;", "a := SET COLOR BLENDING 0.5;"),
     ("a := xform matrix then b;", "a := XFORM MATRIX APPLIED TO b;"),
     ("a := xform vec then b;", "a := XFORM VECTOR_LIST APPLIED TO b;"),
     ("a := char sca 2 then b;", "a := CHARACTER SCALE 2 APPLIED TO b;"),

@@ -4,11 +4,13 @@
 //!
 //! What is known of the language, and from where, is in `docs/protocols/ps300.md`. Decisions of this
 //! project, where that record is silent, stand at the top of the file that makes them: comments and quotes
-//! in `lexer`, values in `parser/literal`, vector lists in `parser/data`, structures in `parser/definition`,
-//! recovery in `parser`.
+//! in `lexer`, values in `parser/literal`, vector lists in `parser/vectors`, curves in `parser/curve`, texts and
+//! fonts in `parser/characters`, faces in `parser/face`, structures in `parser/definition`, recovery in `parser`.
+//! [`FORMS`] lists the whole language with examples.
 
 mod command;
 mod diagnostic;
+mod forms;
 mod lexer;
 mod name;
 mod node;
@@ -22,6 +24,7 @@ pub use command::{
     Command, Definition, Disconnection, Initialization, Input, InputOf, OutputOf, Payload, Text,
 };
 pub use diagnostic::{Diagnostic, Located, Position, Severity};
+pub use forms::{FORMS, Form, Section};
 pub use name::Name;
 pub use node::{
     Attributes, Axis, BSpline, Boundaries, Characters, Comparison, Dimension, Font, Glyph, GlyphVector,

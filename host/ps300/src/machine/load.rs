@@ -49,6 +49,8 @@ fn references(command: &Command, at: Position, into: &mut Vec<(Position, Name)>)
         } => node_references(node, at, into),
         Command::Include { member, .. } => into.push((at, member.clone())),
         Command::Display(name) => into.push((at, name.clone())),
+        // It was defined, and what referred to it still does.
+        Command::Forget(name) => into.retain(|(_, referred)| referred != name),
         _ => {}
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
-use ps300::language::{Command, Node, Operation};
+use ps300::language::{Command, Definition, FORMS, Node, Operation, parse};
 
 use super::commands::{commands, node};
 use super::operations::operations;
@@ -49,6 +49,45 @@ fn missing(all: &[&'static str], found: &BTreeSet<&'static str>) -> Vec<&'static
     all.iter().copied().filter(|name| !found.contains(name)).collect()
 }
 
+fn note_node(node: &Node, found: &mut BTreeSet<&'static str>) {
+    found.insert(node_variant(node));
+    match node {
+        Node::Structure(members) => {
+            for member in members {
+                note_node(&member.node, found);
+            }
+        }
+        Node::Operation { operation, .. } => {
+            found.insert(operation_variant(operation));
+        }
+        _ => {}
+    }
+}
+
+/// Whatever there is, the reference shows.
+#[test]
+fn every_variant_has_an_example() {
+    let mut found = BTreeSet::new();
+    for form in FORMS.iter().flat_map(|section| section.forms) {
+        for located in parse(form.example).0 {
+            found.insert(command_variant(&located.what));
+            match &located.what {
+                Command::Define {
+                    definition: Definition::Node(node),
+                    ..
+                } => note_node(node, &mut found),
+                Command::Follow { with, .. } | Command::Prefix { with, .. } => {
+                    found.insert(operation_variant(with));
+                }
+                _ => {}
+            }
+        }
+    }
+    for all in [COMMANDS, NODES, OPERATIONS] {
+        assert_eq!(missing(all, &found), [""; 0]);
+    }
+}
+
 #[test]
 fn every_command_is_made() {
     let mut runner = TestRunner::deterministic();
@@ -71,19 +110,11 @@ fn every_operation_is_made() {
 
 #[test]
 fn every_node_is_made() {
-    fn note(node: &Node, found: &mut BTreeSet<&'static str>) {
-        found.insert(node_variant(node));
-        if let Node::Structure(members) = node {
-            for member in members {
-                note(&member.node, found);
-            }
-        }
-    }
     let mut runner = TestRunner::deterministic();
     let mut found = BTreeSet::new();
     let strategy = node();
     for _ in 0..1000 {
-        note(&made(&strategy, &mut runner), &mut found);
+        note_node(&made(&strategy, &mut runner), &mut found);
     }
     assert_eq!(missing(NODES, &found), [""; 0]);
 }
