@@ -2,6 +2,7 @@
 
 mod dials;
 mod firing;
+mod mirror;
 mod objects;
 mod pages;
 mod record;
