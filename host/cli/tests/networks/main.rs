@@ -2,6 +2,8 @@
 
 mod dials;
 mod firing;
+mod hands;
+mod inking;
 mod mirror;
 mod objects;
 mod pages;
