@@ -7,5 +7,6 @@ mod inking;
 mod mirror;
 mod objects;
 mod pages;
+mod paths;
 mod record;
 mod session;
