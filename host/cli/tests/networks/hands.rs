@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 use ps300::Machine;
+use ps300::value::Kinds;
+use rig::parameters::PARAMETERS;
 
 use crate::session::root;
 
@@ -14,9 +16,15 @@ pub(crate) struct Hands {
 }
 
 impl Hands {
-    /// Loads files of `networks`, which must be in order.
+    /// Loads files of `networks`, which must be in order, where they find what the rig can be asked for.
     pub(crate) fn on(names: &[&str]) -> Self {
         let mut machine = Machine::new();
+        for parameter in PARAMETERS {
+            let kinds: Vec<Kinds> = parameter.inlets.iter().map(|inlet| inlet.kinds).collect();
+            machine
+                .declare_sink(parameter.name, &kinds)
+                .expect("a name of its own");
+        }
         for name in names {
             let path = root().join("networks").join(name);
             let text = std::fs::read_to_string(path).expect("readable");

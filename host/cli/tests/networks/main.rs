@@ -8,5 +8,6 @@ mod mirror;
 mod objects;
 mod pages;
 mod paths;
+mod posing;
 mod record;
 mod session;
