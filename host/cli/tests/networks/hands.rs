@@ -73,10 +73,10 @@ impl Hands {
         self.rest();
     }
 
-    /// A sixtieth of a second in which nothing is done.
+    /// A fiftieth of a second in which nothing is done.
     pub(crate) fn rest(&mut self) {
         self.frame += 1;
-        self.machine.tick(self.frame as f64 / 60.0, self.frame, 10_000);
+        self.machine.tick(self.frame as f64 / 50.0, self.frame, 10_000);
     }
 }
 

@@ -4,9 +4,9 @@
 use std::collections::BTreeMap;
 
 use glam::{DMat3, DMat4, DVec3};
-use ps300::{Machine, Value};
+use ps300::Value;
 
-use crate::session::root;
+use crate::hands::{Draws, Hands};
 
 /// Things in the order of F12, and of which kind their eight dials are.
 const THINGS: [(&str, Dials); 9] = [
@@ -180,42 +180,36 @@ impl Model {
 
 /// The page, and the last message of each output that is watched.
 struct Page {
-    machine: Machine,
+    hands: Hands,
     sent: BTreeMap<String, Value>,
-    frame: u64,
 }
 
 impl Page {
     fn new() -> Self {
-        let text = std::fs::read_to_string(root().join("networks/pages/objects.ps300")).expect("readable");
-        let mut machine = Machine::new();
-        assert_eq!(machine.load(&text), []);
+        let mut hands = Hands::on(&["pages/objects.ps300"]);
         for name in WATCHED {
-            assert!(machine.watch(name, 1), "{name}");
+            assert!(hands.machine.watch(name, 1), "{name}");
         }
         let mut page = Self {
-            machine,
+            hands,
             sent: BTreeMap::new(),
-            frame: 0,
         };
         page.press(10);
         page
     }
 
     fn press(&mut self, key: i32) {
-        assert!(self.machine.emit("FKEYS", 1, key));
-        self.settle();
+        self.hands.press(key);
+        self.hear();
     }
 
     fn turn(&mut self, dial: u8, turns: f64) {
-        assert!(self.machine.emit("DIALS", dial, turns));
-        self.settle();
+        self.hands.turn(dial, turns);
+        self.hear();
     }
 
-    fn settle(&mut self) {
-        self.frame += 1;
-        self.machine.tick(self.frame as f64 / 60.0, self.frame, 10_000);
-        for seen in self.machine.drain_watched() {
+    fn hear(&mut self) {
+        for seen in self.hands.machine.drain_watched() {
             self.sent.insert(seen.name.as_str().to_owned(), seen.value);
         }
     }
@@ -232,7 +226,7 @@ impl Page {
                 wrong.push(what.to_owned());
             }
         };
-        let panel = self.machine.panel();
+        let panel = self.hands.machine.panel();
         let kind = THINGS[model.chosen].1;
         check("dial labels", panel.dial_labels == kind.labels());
         let [viewport, rendering, switch, chosen] =
@@ -272,12 +266,16 @@ impl Page {
         if shape.is_empty() {
             return true;
         }
-        let drawn = self.machine.display_of(NAMES[number], DMat4::IDENTITY).strokes;
+        let drawn = self
+            .hands
+            .machine
+            .display_of(NAMES[number], DMat4::IDENTITY)
+            .strokes;
         let is_light = shape == "ray";
         if !thing.on || (is_light && !is_turned) {
             return drawn.is_empty();
         }
-        let written = self.machine.display_of(shape, DMat4::IDENTITY).strokes;
+        let written = self.hands.machine.display_of(shape, DMat4::IDENTITY).strokes;
         let size = if is_light { 3.0 * thing.scale } else { thing.scale };
         let placed = |at: DVec3| thing.place + thing.rotation() * at * size;
         drawn.len() == written.len()
@@ -290,7 +288,7 @@ impl Page {
     /// Whether the swatch is seen when it should be, and in the thing's colour.
     fn is_colored(&self, number: usize, thing: &Thing, model: &Model) -> bool {
         let name = format!("{}_swatch", NAMES[number]);
-        let drawn = self.machine.display_of(&name, DMat4::IDENTITY).strokes;
+        let drawn = self.hands.machine.display_of(&name, DMat4::IDENTITY).strokes;
         let bright = if number < 5 { thing.intensity } else { 1.0 };
         drawn.is_empty() != (model.colored == Some(number))
             && drawn.iter().all(|stroke| {
@@ -328,23 +326,16 @@ fn keys_and_dials_do_what_the_table_says_in_any_order() {
     let mut page = Page::new();
     let mut model = Model::new();
     assert_eq!(page.differences(&model), [""; 0], "at first");
-    // A linear congruence: the same hands in every run.
-    let mut seed = 12_345_u64;
-    let mut draw = |below: u64| {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 33) % below
-    };
+    let mut draws = Draws(12_345);
     for step in 0..1500 {
-        let done = if draw(5) == 0 {
-            let key = [2, 3, 10, 11, 12, 12, 12, 12][draw(8) as usize];
+        let done = if draws.below(5) == 0 {
+            let key = [2, 3, 10, 11, 12, 12, 12, 12][draws.below(8) as usize];
             page.press(key);
             model.press(key);
             format!("F{key}")
         } else {
-            let dial = draw(8) as u8 + 1;
-            let turns = (draw(64) as f64 - 31.5) / 64.0;
+            let dial = draws.below(8) as u8 + 1;
+            let turns = draws.unit() / 2.0;
             page.turn(dial, turns);
             model.turn(dial, turns);
             format!("dial {dial} by {turns}")
@@ -356,13 +347,13 @@ fn keys_and_dials_do_what_the_table_says_in_any_order() {
             THINGS[model.chosen].0
         );
     }
-    assert_eq!(page.machine.reports(), []);
+    assert_eq!(page.hands.machine.reports(), []);
 }
 
 #[test]
 fn two_keys_cycle_viewports_and_renderings_and_a_third_asks_for_the_one_that_is_set() {
     let mut page = Page::new();
-    let label = |page: &Page, key: usize| page.machine.panel().key_labels[key - 1].clone();
+    let label = |page: &Page, key: usize| page.hands.machine.panel().key_labels[key - 1].clone();
     for round in 0..2 {
         for (name, [left, right, bottom, top]) in VIEWPORTS {
             assert_eq!(label(&page, 2), name, "round {round}");
@@ -394,7 +385,7 @@ fn keys_that_switch_say_how_and_keys_that_ask_send() {
     ] {
         for (label, value) in labels.into_iter().zip([key == 4, key != 4]) {
             page.press(key);
-            assert_eq!(page.machine.panel().key_labels[key as usize - 1], label);
+            assert_eq!(page.hands.machine.panel().key_labels[key as usize - 1], label);
             assert_eq!(page.sent.get(name), Some(&Value::from(value)), "{label}");
         }
     }
