@@ -2,8 +2,9 @@
 //!
 //! The stored sum itself is clamped, so that turning back from a limit acts at once.
 
-use glam::{DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DMat2, DMat3, DMat4, DVec3};
 
+use super::components::{assemble, components};
 use super::function::{Fault, Function, Inputs, Outputs, domain};
 use super::numbers::integer;
 use super::recalled::{Recalled, restore};
@@ -98,7 +99,7 @@ impl Function for Accumulate {
             Some(Running::Product(product)) => vec![product.clone()],
             Some(Running::Sum { kind, sum, sent }) => {
                 // The sum of integers has a fraction; a third value says that integers are sent.
-                let mut state = vec![exact(*kind, *sum), exact(*kind, *sent)];
+                let mut state = vec![assemble(*kind, *sum), assemble(*kind, *sent)];
                 state.extend((*kind == Kind::Integer).then_some(Value::Boolean(true)));
                 state
             }
@@ -219,7 +220,7 @@ fn add(
         .sum::<f64>()
         .sqrt();
     if moved >= least {
-        let value = assemble(kind, next)?;
+        let value = sendable(kind, next)?;
         *sent = next;
         outputs.send(1, value);
     }
@@ -255,32 +256,11 @@ fn count(kind: Kind) -> usize {
     }
 }
 
-fn components(value: &Value) -> Option<[f64; 4]> {
-    match value {
-        Value::Vector2(v) => Some([v.x, v.y, 0.0, 0.0]),
-        Value::Vector3(v) => Some([v.x, v.y, v.z, 0.0]),
-        Value::Vector4(v) => Some(v.to_array()),
-        number => number.as_number().map(|x| [x, 0.0, 0.0, 0.0]),
-    }
-}
-
-fn assemble(kind: Kind, [x, y, z, w]: [f64; 4]) -> Result<Value, Fault> {
-    Ok(match kind {
-        Kind::Vector2 => DVec2::new(x, y).into(),
-        Kind::Vector3 => DVec3::new(x, y, z).into(),
-        Kind::Vector4 => DVec4::new(x, y, z, w).into(),
-        Kind::Integer => integer(x.trunc())?.into(),
-        _ => x.into(),
-    })
-}
-
-/// The same, where a sum of integers keeps its fraction.
-fn exact(kind: Kind, [x, y, z, w]: [f64; 4]) -> Value {
+/// What is sent: of an integer sum, its whole part.
+fn sendable(kind: Kind, sum: [f64; 4]) -> Result<Value, Fault> {
     match kind {
-        Kind::Vector2 => DVec2::new(x, y).into(),
-        Kind::Vector3 => DVec3::new(x, y, z).into(),
-        Kind::Vector4 => DVec4::new(x, y, z, w).into(),
-        _ => x.into(),
+        Kind::Integer => Ok(integer(sum[0].trunc())?.into()),
+        kind => Ok(assemble(kind, sum)),
     }
 }
 

@@ -10,11 +10,13 @@ mod accumulate;
 mod arithmetic;
 mod clock;
 mod compare;
+mod components;
 mod filter;
 mod function;
 mod gather;
 mod logic;
 mod matrix;
+mod modern;
 mod numbers;
 mod recalled;
 mod retype;
@@ -59,6 +61,7 @@ pub fn table() -> impl Iterator<Item = &'static Spec> {
         timeout::TABLE,
     ]
     .into_iter()
+    .chain(modern::TABLES)
     .flatten()
 }
 

@@ -3,8 +3,9 @@
 //! Apart from the functions because a state comes from text that anybody may have written: each value is
 //! checked for its kind, and nothing may be missing or left over.
 
+use super::components::Point;
 use super::function::TEXT_MAX_BYTES;
-use crate::value::Value;
+use crate::value::{Kind, Value};
 
 /// A state, read value by value.
 pub(super) struct Recalled<'a> {
@@ -28,12 +29,23 @@ pub(super) fn restore<'a, T>(
     found.map(|found| *place = found).is_some()
 }
 
+/// A real that may be absent, as one value of a state; see [`Recalled::optional`].
+pub(super) fn optional(real: Option<f64>) -> Value {
+    real.map_or(Value::Boolean(false), Value::Real)
+}
+
 impl<'a> Recalled<'a> {
     /// The next value, of any kind a message can have.
     pub(super) fn value(&mut self) -> Option<&'a Value> {
         let (first, rest) = self.rest.split_first()?;
         self.rest = rest;
         Some(first).filter(|value| value.is_finite())
+    }
+
+    /// The next value, of a kind that has a literal.
+    pub(super) fn written(&mut self) -> Option<&'a Value> {
+        self.value()
+            .filter(|value| !matches!(value, Value::Vectors(_) | Value::Picks(_)))
     }
 
     /// How many values are left.
@@ -77,6 +89,22 @@ impl<'a> Recalled<'a> {
         let count = self.real()?;
         let whole = count.fract() == 0.0 && (0.0..=EXACT_MAX).contains(&count);
         whole.then_some(count as u64)
+    }
+
+    /// A real, or nothing where FALSE stands for one; put where it belongs.
+    pub(super) fn optional(&mut self, place: &mut Option<f64>) -> Option<()> {
+        *place = match self.value()? {
+            Value::Boolean(false) => None,
+            Value::Real(x) => Some(*x),
+            _ => return None,
+        };
+        Some(())
+    }
+
+    /// A number or vector.
+    pub(super) fn point(&mut self) -> Option<Point> {
+        let value = self.value()?;
+        Point::read(value).filter(|_| value.kind() != Kind::Integer)
     }
 
     /// All that is left, as reals.

@@ -16,4 +16,9 @@ impl Stopwatch {
         let now = now.micros();
         now.saturating_sub(self.seen.replace(now).unwrap_or(now))
     }
+
+    /// The same in seconds.
+    pub(super) fn lap_secs(&mut self, now: Now) -> f64 {
+        self.lap(now) as f64 * 1e-6
+    }
 }
