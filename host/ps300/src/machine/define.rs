@@ -114,6 +114,7 @@ impl Machine {
 
     /// Gives a function label its instance: one that is kept, or a new one.
     fn house(&mut self, full: &Name, spec: &'static Spec, size: Option<u8>, kept: &Kept) {
+        self.clear(full);
         let id = match kept.get(full) {
             Some(&id) => Some(id),
             None => self.network.add(full.clone(), spec, size, Role::Function),
@@ -124,6 +125,8 @@ impl Machine {
         }
         if let Some(id) = id {
             self.names.define_label(full, Thing::Instance(id));
+            let entry = self.names.find(full);
+            self.displayed.retain(|&displayed| Some(displayed) != entry); // Nor is this.
         }
     }
 
