@@ -3,7 +3,7 @@
 use glam::DVec2;
 use ps300::Machine;
 use ps300::value::Kinds;
-use rig::parameters::PARAMETERS;
+use rig::parameters::{LINK, PARAMETERS};
 
 use crate::session::root;
 
@@ -18,13 +18,7 @@ pub(crate) struct Hands {
 impl Hands {
     /// Loads files of `networks`, which must be in order, where they find what the rig can be asked for.
     pub(crate) fn on(names: &[&str]) -> Self {
-        let mut machine = Machine::new();
-        for parameter in PARAMETERS {
-            let kinds: Vec<Kinds> = parameter.inlets.iter().map(|inlet| inlet.kinds).collect();
-            machine
-                .declare_sink(parameter.name, &kinds)
-                .expect("a name of its own");
-        }
+        let mut machine = asked();
         for name in names {
             let path = root().join("networks").join(name);
             let text = std::fs::read_to_string(path).expect("readable");
@@ -36,6 +30,14 @@ impl Hands {
             is_down: false,
             is_near: false,
         }
+    }
+
+    /// The same hands on another machine, loaded from a text.
+    pub(crate) fn moved_to(&self, text: &str) -> Self {
+        let mut machine = asked();
+        machine.tick(self.machine.secs(), self.frame, 0);
+        assert_eq!(machine.load(text), []);
+        Self { machine, ..*self }
     }
 
     pub(crate) fn press(&mut self, key: i32) {
@@ -78,6 +80,21 @@ impl Hands {
         self.frame += 1;
         self.machine.tick(self.frame as f64 / 50.0, self.frame, 10_000);
     }
+}
+
+/// A machine that has what the rig can be asked for, with two links of a figure.
+fn asked() -> Machine {
+    let mut machine = Machine::new();
+    let declared = PARAMETERS.iter().map(|parameter| {
+        let kinds: Vec<Kinds> = parameter.inlets.iter().map(|inlet| inlet.kinds).collect();
+        (parameter.name, kinds)
+    });
+    let links =
+        ["FIGURE.rua", "FIGURE.rfa"].map(|link| (link, LINK.iter().map(|(kinds, _)| *kinds).collect()));
+    for (name, kinds) in declared.chain(links) {
+        machine.declare_sink(name, &kinds).expect("a name of its own");
+    }
+    machine
 }
 
 /// Numbers that look like chance and are the same in every run.

@@ -11,3 +11,4 @@ mod paths;
 mod posing;
 mod record;
 mod session;
+mod shipped;
