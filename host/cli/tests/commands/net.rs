@@ -22,6 +22,15 @@ fn networks_run_in_virtual_time() {
                 "kinds.txt",
                 b"# every shape of value\nat 0 SEND 90 TO <1>z;\nat 0 SEND 2 TO <1>v;\nat 0.25 SEND FIX(4) TO <1>a;\n",
             ),
+            (
+                "keys.ps300",
+                b"all := F:NOP; CONNECT DIALS<8>:<1>all; CONNECT FKEYS<1>:<1>all; CONNECT TABLETIN<1>:<1>all;
+                  CONNECT KEYBOARD<1>:<1>all;",
+            ),
+            (
+                "pen.txt",
+                b"at 0.5 EMIT V2D(0.5,-0.25) FROM TABLETIN<1>;\nat 0.5 emit ' from ' from keyboard<1>",
+            ),
             ("late.txt", b"at 0 later := F:NOP;\nat 1 SEND TRUE TO <1>later;\n"),
         ],
         &[
@@ -52,6 +61,18 @@ fn networks_run_in_virtual_time() {
                     r#""from":"z<1>","kind":"matrix3","value":[["#,
                     r#""from":"v<1>","kind":"vector3","value":[2.0,0.0,0.0]"#,
                     r#"{"t":0.25,"from":"a<1>","kind":"integer","value":5}"#,
+                ],
+                &[],
+            ),
+            // A device has no input; what it sends is emitted. At one time dials come first, then keys, then events.
+            call(
+                "net run keys.ps300 --events pen.txt --key 36@0.5 --dial 8:-1@0.5 --watch all<1>",
+                0,
+                &[
+                    r#"{"t":0.5,"from":"all<1>","kind":"real","value":-1.0}"#,
+                    r#"{"t":0.5,"from":"all<1>","kind":"integer","value":36}"#,
+                    r#"{"t":0.5,"from":"all<1>","kind":"vector2","value":[0.5,-0.25]}"#,
+                    r#"{"t":0.5,"from":"all<1>","kind":"string","value":" from "}"#,
                 ],
                 &[],
             ),
@@ -90,6 +111,10 @@ fn what_is_lost_while_running_is_told_and_no_failure() {
                 "wrong.txt",
                 b"at 0.5 SEND 'x' TO <1>turn;\nat 0.6 SEND 1 TO <1>turn;",
             ),
+            (
+                "nobody.txt",
+                b"at 0.5 EMIT 1 FROM NOBODY<1>;\nat 0.6 EMIT 1 FROM DIALS<1>;",
+            ),
         ],
         &[
             call(
@@ -103,6 +128,12 @@ fn what_is_lost_while_running_is_told_and_no_failure() {
                 0,
                 &[r#"{"t":0.6,"from":"turn<1>","kind":"real","value":180.0}"#],
                 &["wrong.txt:1:8: warning: input <1> of turn takes ", "not string"],
+            ),
+            call(
+                "net run turn.ps300 --events nobody.txt --watch turn<1>",
+                0,
+                &[r#"{"t":0.6,"from":"turn<1>","kind":"real","value":180.0}"#],
+                &["nobody.txt:1:8: warning: there is no output NOBODY<1>"],
             ),
             fed(
                 "net run - --until 0.1",
@@ -227,7 +258,7 @@ fn networks_are_printed_drawn_and_looked_up() {
                     r#""constant":true,"default":null"#,
                     r#""outputs":[{"number":1,"kinds":["#,
                     r#""behaviour":"#,
-                    r#""confidence":"used","example":"<2> 10"#,
+                    r#""confidence":"used","example":"<2> 1"#,
                     r#"{"name":"ROUTE""#,
                     r#""times":"size""#,
                     r#"{"name":"CLFRAMES""#,
