@@ -8,6 +8,7 @@ mod mirror;
 mod objects;
 mod pages;
 mod paths;
+mod pickup_banks;
 mod posing;
 mod record;
 mod session;
