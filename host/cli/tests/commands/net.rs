@@ -22,15 +22,6 @@ fn networks_run_in_virtual_time() {
                 "kinds.txt",
                 b"# every shape of value\nat 0 SEND 90 TO <1>z;\nat 0 SEND 2 TO <1>v;\nat 0.25 SEND FIX(4) TO <1>a;\n",
             ),
-            (
-                "keys.ps300",
-                b"all := F:NOP; CONNECT DIALS<8>:<1>all; CONNECT FKEYS<1>:<1>all; CONNECT TABLETIN<1>:<1>all;
-                  CONNECT KEYBOARD<1>:<1>all;",
-            ),
-            (
-                "pen.txt",
-                b"at 0.5 EMIT V2D(0.5,-0.25) FROM TABLETIN<1>;\nat 0.5 emit ' from ' from keyboard<1>",
-            ),
             ("late.txt", b"at 0 later := F:NOP;\nat 1 SEND TRUE TO <1>later;\n"),
         ],
         &[
@@ -64,18 +55,6 @@ fn networks_run_in_virtual_time() {
                 ],
                 &[],
             ),
-            // A device has no input; what it sends is emitted. At one time dials come first, then keys, then events.
-            call(
-                "net run keys.ps300 --events pen.txt --key 36@0.5 --dial 8:-1@0.5 --watch all<1>",
-                0,
-                &[
-                    r#"{"t":0.5,"from":"all<1>","kind":"real","value":-1.0}"#,
-                    r#"{"t":0.5,"from":"all<1>","kind":"integer","value":36}"#,
-                    r#"{"t":0.5,"from":"all<1>","kind":"vector2","value":[0.5,-0.25]}"#,
-                    r#"{"t":0.5,"from":"all<1>","kind":"string","value":" from "}"#,
-                ],
-                &[],
-            ),
             call(
                 "net run turn.ps300 --events late.txt --watch later<1>",
                 0,
@@ -92,6 +71,37 @@ fn networks_run_in_virtual_time() {
                 "net run networks/figure.ps300 --dial 1:0.25@0.5 --watch VIEW<1>",
                 0,
                 &[r#"{"t":0.5,"from":"VIEW<1>","kind":"real","value":45.0}"#],
+                &[],
+            ),
+        ],
+    );
+}
+
+#[test]
+fn devices_send_what_hands_do() {
+    check(
+        &[
+            (
+                "keys.ps300",
+                b"all := F:NOP; CONNECT DIALS<8>:<1>all; CONNECT FKEYS<1>:<1>all; CONNECT TABLETIN<1>:<1>all;
+                  CONNECT KEYBOARD<1>:<1>all;",
+            ),
+            (
+                "pen.txt",
+                b"at 0.5 EMIT V2D(0.5,-0.25) FROM TABLETIN<1>;\nat 0.5 emit ' from ' from keyboard<1>",
+            ),
+        ],
+        &[
+            // A device has no input; what it sends is emitted. At one time dials come first, then keys, then events.
+            call(
+                "net run keys.ps300 --events pen.txt --key 36@0.5 --dial 8:-1@0.5 --watch all<1>",
+                0,
+                &[
+                    r#"{"t":0.5,"from":"all<1>","kind":"real","value":-1.0}"#,
+                    r#"{"t":0.5,"from":"all<1>","kind":"integer","value":36}"#,
+                    r#"{"t":0.5,"from":"all<1>","kind":"vector2","value":[0.5,-0.25]}"#,
+                    r#"{"t":0.5,"from":"all<1>","kind":"string","value":" from "}"#,
+                ],
                 &[],
             ),
         ],

@@ -123,7 +123,7 @@ fn values_move_when_the_table_says_so_and_labels_tell_where_to_look() {
             }
             1 => {
                 let (bank, fader) = (draws.below(4) as usize, draws.below(4) as usize);
-                let value = (draws.unit() + 1.0) / 2.0;
+                let value = draws.below(129) as f64 / 128.0;
                 send(&mut hands, &format!("set_{}_{}", bank + 1, fader + 1), value);
                 model.banks[bank][fader].value = value;
                 expected.push(((bank, fader), value));
