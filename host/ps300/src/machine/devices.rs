@@ -3,13 +3,14 @@
 //! Ordinary names to connect to; commands cannot redefine or delete them, so that the host can rely on
 //! them. Source: `docs/protocols/ps300.md`, "Initial structure: device function instances".
 
-use crate::intrinsic::{Confidence, OutputSpec, Spec};
+use crate::intrinsic::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kind, Kinds};
 
 const VECTOR2: OutputSpec = OutputSpec::of(Kinds::of(&[Kind::Vector2]));
 const REAL: OutputSpec = OutputSpec::of(Kinds::REAL);
 const INTEGER: OutputSpec = OutputSpec::of(Kinds::INTEGER);
 const BOOLEAN: OutputSpec = OutputSpec::of(Kinds::BOOLEAN);
+const STRING: OutputSpec = OutputSpec::of(Kinds::STRING);
 
 macro_rules! device {
     ($name:literal, $outputs:expr, $behaviour:literal, $source:literal, $confidence:ident) => {
@@ -20,7 +21,7 @@ macro_rules! device {
 }
 
 /// What sends: nothing goes in, the host emits.
-pub static SOURCES: [Spec; 5] = [
+pub static SOURCES: [Spec; 8] = [
     device!(
         "DIALS",
         &[REAL, REAL, REAL, REAL, REAL, REAL, REAL, REAL],
@@ -50,12 +51,31 @@ pub static SOURCES: [Spec; 5] = [
         "D0 tablet networks",
         Used
     ),
+    device!("KEYBOARD", &[STRING], "What was typed.", "recollected", High),
     device!(
-        "KEYBOARD",
-        &[OutputSpec::of(Kinds::STRING)],
-        "What was typed.",
+        "KBHANDLER",
+        &[STRING, STRING, STRING, STRING],
+        "<4> what was typed, as D0 takes it; <1> to <3> not known, silent.",
+        "D0 for output 4; that the others are strings ours",
+        Used
+    ),
+    device!(
+        "SPECKEYS",
+        &[OutputSpec::of(Kinds::INTEGER.or(Kinds::STRING))],
+        "The special keys of the keyboard. Which sent what is not on record.",
         "recollected",
-        High
+        Low
+    ),
+    Spec::pure(
+        "MEMORY_MONITOR",
+        &[InputSpec::constant(Kinds::ANY, Preset::Required); 3],
+        &[INTEGER],
+        |_, _| Ok(()),
+    )
+    .says("Reported the use of memory. Takes anything and stays silent: memory is the host's affair.")
+    .known(
+        Confidence::Used,
+        "D0 sends an integer to <3>; its meaning, and the report's, not known",
     ),
 ];
 
@@ -65,11 +85,25 @@ pub struct Readout {
     pub name: &'static str,
     /// Numbers that follow the name, if there are several.
     pub numbers: Option<(u8, u8)>,
-    /// What its input <1> takes.
-    pub kinds: Kinds,
+    /// What its inputs take, from <1>.
+    pub inputs: &'static [Kinds],
     /// What it shows.
     pub behaviour: &'static str,
     pub(super) shows: Shows,
+}
+
+impl Readout {
+    /// The names of all it stands for: `DLABEL1` to `DLABEL8`.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        let name = self.name;
+        let numbered = self.numbers.map(|(first, last)| first..=last);
+        let alone = numbered.is_none().then(|| name.to_owned());
+        numbered
+            .into_iter()
+            .flatten()
+            .map(move |number| format!("{name}{number}"))
+            .chain(alone)
+    }
 }
 
 /// What a readout changes on the front panel.
@@ -81,50 +115,115 @@ pub(super) enum Shows {
     LampsOn,
     LampsOff,
     Message,
+    Terminal,
+    /// A line of the terminal, with the name of the readout before it.
+    Notice,
+    /// Nothing; the message is taken all the same, so that programs of the time run.
+    Nothing,
 }
 
 /// What receives: the host shows it.
-pub static READOUTS: [Readout; 6] = [
+pub static READOUTS: [Readout; 16] = [
     Readout {
         name: "DLABEL",
         numbers: Some((1, 8)),
-        kinds: Kinds::STRING,
+        inputs: &[Kinds::STRING],
         behaviour: "The label of a dial, eight characters.",
         shows: Shows::DialLabel,
     },
     Readout {
         name: "FLABEL",
         numbers: Some((0, 12)),
-        kinds: Kinds::STRING,
+        inputs: &[Kinds::STRING],
         behaviour: "The label of a function key, eight characters; FLABEL0 the whole row, ninety-six.",
         shows: Shows::KeyLabel,
     },
     Readout {
         name: "CLEAR_LABELS",
         numbers: None,
-        kinds: Kinds::BOOLEAN,
+        inputs: &[Kinds::BOOLEAN],
         behaviour: "TRUE blanks all labels.",
         shows: Shows::ClearLabels,
     },
     Readout {
         name: "ONBUTTONLIGHTS",
         numbers: None,
-        kinds: Kinds::INTEGER,
+        inputs: &[Kinds::INTEGER],
         behaviour: "Lights a button, 1 to 32; 0 lights all.",
         shows: Shows::LampsOn,
     },
     Readout {
         name: "OFFBUTTONLIGHTS",
         numbers: None,
-        kinds: Kinds::INTEGER,
+        inputs: &[Kinds::INTEGER],
         behaviour: "Extinguishes a button, 1 to 32; 0 extinguishes all.",
         shows: Shows::LampsOff,
     },
     Readout {
         name: "MESSAGE_DISPLAY",
         numbers: None,
-        kinds: Kinds::STRING,
+        inputs: &[Kinds::STRING],
         behaviour: "The message line of the screen.",
         shows: Shows::Message,
     },
+    Readout {
+        name: "ES_TE",
+        numbers: None,
+        inputs: &[Kinds::STRING],
+        behaviour: "The terminal: 24 lines of 80 characters. Carriage return, line feed, backspace, and ANSI's ESC[H, \
+                    ESC[J and ESC[K are obeyed, other sequences left out.",
+        shows: Shows::Terminal,
+    },
+    notice("INFORMATION"),
+    notice("WARNING"),
+    notice("ERROR"),
+    notice("MEMORY_ALERT"),
+    Readout {
+        name: "HOST_MESSAGE",
+        numbers: None,
+        inputs: &[Kinds::STRING],
+        behaviour: "A line for the program of the host, which takes it with the messages of its own inputs; \
+                    `dialrig net run --watch 'HOST_MESSAGE<1>'` prints it.",
+        shows: Shows::Nothing,
+    },
+    Readout {
+        name: "DSET",
+        numbers: Some((1, 8)),
+        inputs: &[Kinds::ANY; 4],
+        behaviour: "How a dial was sampled. Taken and without effect: which input set what is not on record.",
+        shows: Shows::Nothing,
+    },
+    Readout {
+        name: "TABLETOUT",
+        numbers: None,
+        inputs: &[Kinds::ANY; 4],
+        behaviour: "How the tablet worked. Taken and without effect: which input set what is not on record.",
+        shows: Shows::Nothing,
+    },
+    Readout {
+        name: "TURNONDISPLAY",
+        numbers: None,
+        inputs: &[Kinds::ANY],
+        behaviour: "Went back from a still, shaded picture to the live one. Taken and without effect: here every \
+                    picture is live.",
+        shows: Shows::Nothing,
+    },
+    Readout {
+        name: "SHADINGENVIRONMENT",
+        numbers: None,
+        inputs: &[Kinds::ANY; 15],
+        behaviour: "What held for all shaded pictures: light, background, smoothing. Taken and without effect: of \
+                    most inputs the meaning is not on record.",
+        shows: Shows::Nothing,
+    },
 ];
+
+const fn notice(name: &'static str) -> Readout {
+    Readout {
+        name,
+        numbers: None,
+        inputs: &[Kinds::STRING],
+        behaviour: "A line on the terminal, with this name before it.",
+        shows: Shows::Notice,
+    }
+}

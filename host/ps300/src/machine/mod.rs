@@ -20,6 +20,7 @@ mod program;
 mod program_state;
 mod removal;
 mod state;
+mod terminal;
 mod tree;
 mod view;
 mod wires;
@@ -27,6 +28,7 @@ mod wires;
 pub use activity::{Activity, InputActivity, OutputActivity};
 pub use error::{DeclareError, ExecuteError};
 pub use panel::{LABEL_CHARACTERS, Panel};
+pub use terminal::{TERMINAL_COLUMNS, TERMINAL_LINES, Terminal};
 pub use view::{ConnectionView, InputView, InstanceView, OutputView};
 
 use std::sync::Arc;

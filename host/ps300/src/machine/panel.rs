@@ -3,6 +3,7 @@
 //! Source: `docs/protocols/ps300.md`, "Initial structure: device function instances".
 
 use super::devices::{READOUTS, Shows};
+use super::terminal::Terminal;
 use crate::language::Name;
 use crate::names::{Names, Thing};
 use crate::network::{Network, SinkId};
@@ -22,28 +23,27 @@ pub struct Panel {
     pub lamps: u32,
     /// The message line.
     pub message: String,
+    /// What the terminal shows.
+    pub terminal: Terminal,
     /// Counts changes, so that a host can tell whether to look.
     pub revision: u64,
 }
 
 /// The built-in sinks in the order they were made, which is their `SinkId`.
 pub(super) struct Readouts {
-    shows: Vec<(Shows, u8)>,
+    shows: Vec<(Shows, u8, &'static str)>,
 }
 
 impl Readouts {
     pub(super) fn install(network: &mut Network, names: &mut Names) -> Self {
         let mut shows = Vec::new();
         for readout in &READOUTS {
-            let (first, last) = readout.numbers.unwrap_or((0, 0));
-            for number in first..=last {
-                let name = match readout.numbers {
-                    Some(_) => Name::new(&format!("{}{number}", readout.name)),
-                    None => Name::new(readout.name),
-                };
-                let id = network.add_sink(name.clone(), &[readout.kinds]);
+            let first = readout.numbers.map_or(0, |(first, _)| first);
+            for (number, name) in (first..).zip(readout.names()) {
+                let name = Name::new(&name);
+                let id = network.add_sink(name.clone(), readout.inputs);
                 names.fix(&name, Thing::Sink(id));
-                shows.push((readout.shows, number));
+                shows.push((readout.shows, number, readout.name));
             }
         }
         Self { shows }
@@ -56,9 +56,12 @@ impl Readouts {
 
     /// Lets the panel show a message that reached one of the built-in sinks.
     pub(super) fn show(&self, panel: &mut Panel, sink: SinkId, value: &Value) {
-        let Some(&(shows, number)) = self.shows.get(sink.0 as usize) else {
+        let Some(&(shows, number, name)) = self.shows.get(sink.0 as usize) else {
             return;
         };
+        if shows == Shows::Nothing {
+            return;
+        }
         panel.revision += 1;
         match (shows, value) {
             (Shows::DialLabel, Value::String(text)) => label(&mut panel.dial_labels, number, text),
@@ -79,6 +82,12 @@ impl Readouts {
             (Shows::LampsOn, Value::Integer(button)) => panel.lamps |= lamps(*button),
             (Shows::LampsOff, Value::Integer(button)) => panel.lamps &= !lamps(*button),
             (Shows::Message, Value::String(text)) => text.as_ref().clone_into(&mut panel.message),
+            (Shows::Terminal, Value::String(text)) => panel.terminal.write(text),
+            (Shows::Notice, Value::String(text)) => {
+                for part in [name, ": ", text, "\r\n"] {
+                    panel.terminal.write(part);
+                }
+            }
             _ => {}
         }
     }

@@ -29,7 +29,7 @@ Every machine has these names; commands connect them and cannot redefine them.
 ";
 
 const READOUTS_HEAD: &str = "
-| name | takes at \\<1> | shows |
+| name | takes | shows |
 |---|---|---|
 ";
 
@@ -66,7 +66,11 @@ pub(super) fn page() -> String {
             Some((first, last)) => format!("{0}{first} … {0}{last}", readout.name),
             None => readout.name.to_owned(),
         };
-        row(&mut page, &[&name, &readout.kinds.to_string(), readout.behaviour]);
+        let takes = match readout.inputs {
+            [kinds] => format!("<1> {kinds}"),
+            several => format!("<1> … <{}> {}", several.len(), several[0]),
+        };
+        row(&mut page, &[&name, &takes, readout.behaviour]);
     }
     page.push_str(ABSENT_HEAD);
     for absent in ABSENT {

@@ -57,11 +57,10 @@ pub(super) fn host_inputs(name: &Name) -> Option<usize> {
     if is_link(name) {
         return Some(LINK.len());
     }
-    let is_readout = READOUTS.iter().any(|readout| match readout.numbers {
-        Some((first, last)) => (first..=last).any(|number| same(&format!("{}{number}", readout.name))),
-        None => same(readout.name),
-    });
-    is_readout.then_some(1)
+    READOUTS
+        .iter()
+        .find(|readout| readout.names().any(|name| same(&name)))
+        .map(|readout| readout.inputs.len())
 }
 
 /// Loads files in order, noting everything there is to say about them.
