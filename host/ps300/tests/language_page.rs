@@ -1,5 +1,5 @@
-//! The table of forms: `docs/ps300/language.md` says what it says (`UPDATE_PAGES=1` writes the page's second half
-//! anew), its capitals are what the parser takes, and its examples run.
+//! The table of forms: `docs/ps300/language.md` says what it says, fuzzing begins with its examples (`UPDATE_PAGES=1`
+//! writes the page's second half and the seeds anew), its capitals are what the parser takes, its examples run.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -36,11 +36,20 @@ fn reference() -> String {
                 "\n#### {}\n\n`{written}`\n\n{}\n",
                 form.keyword, form.meaning
             );
-            let _ = write!(page, "\n```ps300\n{}\n```\n", form.example);
+            // What the machine answers to is not among the examples that must run without a word.
+            let language = if answers(form) { "text" } else { "ps300" };
+            let _ = write!(page, "\n```{language}\n{}\n```\n", form.example);
             let _ = write!(page, "\n{} · {}\n", form.confidence.name(), form.source);
         }
     }
     page
+}
+
+/// Whether the machine has something to say to a command of the example.
+fn answers(form: &Form) -> bool {
+    let mut machine = Machine::new();
+    machine.load(form.example);
+    machine.reports().iter().any(|report| &*report.what == "command")
 }
 
 fn place() -> PathBuf {
@@ -66,6 +75,40 @@ fn the_page_is_the_table() {
     );
 }
 
+/// What fuzzing begins with: a file for each section, and the words.
+fn fuzzing() -> Vec<(String, String)> {
+    let mut files = Vec::new();
+    for section in FORMS {
+        let name = section.title.to_lowercase().replace(' ', "_");
+        let examples: Vec<_> = section.forms.iter().map(|form| form.example).collect();
+        files.push((format!("seeds/parser/{name}.ps300"), examples.join("\n\n") + "\n"));
+    }
+    let mut words = String::new();
+    for (full, _) in KEYWORDS {
+        let _ = writeln!(words, "\"{full}\"");
+    }
+    files.push(("parser.dict".to_owned(), words));
+    files
+}
+
+#[test]
+fn fuzzing_begins_with_every_example_and_word() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz");
+    for (name, wanted) in fuzzing() {
+        if std::env::var_os("UPDATE_PAGES").is_some_and(|set| set == "1") {
+            fs::write(folder.join(&name), &wanted).expect("fuzz/ can be written");
+        }
+        let found = fs::read_to_string(folder.join(&name))
+            .unwrap_or_default()
+            .replace("\r\n", "\n");
+        assert!(
+            found == wanted,
+            "fuzz/{name} is not what the forms say; \
+             write it with: UPDATE_PAGES=1 cargo test -p ps300 --test language_page"
+        );
+    }
+}
+
 #[test]
 fn every_example_is_read_printed_and_executed() {
     for form in forms() {
@@ -87,7 +130,8 @@ fn every_example_is_read_printed_and_executed() {
         let mut machine = Machine::new();
         let diagnostics = machine.load(form.example);
         assert!(diagnostics.is_empty(), "{}: {diagnostics:#?}", form.keyword);
-        let reports = machine.reports();
+        let mut reports = machine.reports();
+        reports.retain(|report| &*report.what != "command");
         assert!(reports.is_empty(), "{}: {reports:#?}", form.keyword);
         let text = machine.network_text();
         let mut second = Machine::new();

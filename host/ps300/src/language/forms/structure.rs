@@ -19,7 +19,7 @@ pub(super) const FORMS: &[Form] = &[
         keyword: "F: in a structure",
         form: "n := BEGIN_Structure label := F:type[(k)]; … END_Structure;",
         example: "wheel := BEGIN_STRUCTURE\n  spin := F:DZROTATE;\n  turned := ROTATE IN Z 0;\n  VECTOR_LIST 0,0 1,0;\n\
-            END_STRUCTURE;\nDISPLAY wheel;",
+            END_STRUCTURE;\nCONNECT DIALS<1>:<1>wheel.spin;\nCONNECT wheel.spin<1>:<1>wheel.turned;\nDISPLAY wheel;",
         meaning: "A function that belongs to a structure: the instance `n.label`, made and deleted with it. It needs a \
             label.",
         source: "ours, so that a picture and what moves it can be one thing",
@@ -129,7 +129,7 @@ pub(super) const FORMS: &[Form] = &[
         keyword: "RESERVE_WORKING_STORAGE",
         form: "RESERVE_WORKING_STORAGE n;",
         example: "RESERVE_WORKING_STORAGE 100000;",
-        meaning: "Memory for rendering, needed before polygons were rendered. Taken, and without effect here.",
+        meaning: "Memory for rendering, needed before polygons were rendered. Taken with a remark, and without effect.",
         source: "recollected; operand as in D0's call PRSVST; that it does nothing ours",
         confidence: High,
     },
@@ -137,7 +137,7 @@ pub(super) const FORMS: &[Form] = &[
         keyword: "COMMAND STATUS",
         form: "COMmand STATus;",
         example: "COMMAND STATUS;",
-        meaning: "Says what is open: groups of BEGIN, OPTIMIZE STRUCTURE.",
+        meaning: "Writes on the message line what is open, and how much there is.",
         source: "recollected; what it says ours",
         confidence: Medium,
     },
