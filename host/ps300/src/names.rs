@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::language::Name;
+use crate::language::{Name, Spelling};
 use crate::network::{InstanceId, SinkId};
 use crate::structure::NodeId;
 
@@ -66,6 +66,12 @@ impl Names {
 
     pub(crate) fn find(&self, name: &Name) -> Option<NameId> {
         self.by_name.get(name).copied()
+    }
+
+    /// The thing a text names.
+    pub(crate) fn named(&self, text: &str) -> Option<Thing> {
+        let id = self.by_name.get(&text as &Spelling<'_>).copied()?;
+        self.entry(id).thing
     }
 
     /// The thing `name` denotes.

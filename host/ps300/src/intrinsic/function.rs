@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::spare::{Message, Spares};
 use crate::language::Input;
 use crate::network::InputPort;
 use crate::value::{Kind, Kinds, Value};
@@ -201,16 +202,25 @@ pub(crate) enum Errand {
 pub struct Outputs<'a> {
     sent: &'a mut Vec<(u8, Value)>,
     errands: &'a mut Vec<Errand>,
+    spares: &'a mut Spares,
 }
 
 impl<'a> Outputs<'a> {
-    pub(crate) fn new(sent: &'a mut Vec<(u8, Value)>, errands: &'a mut Vec<Errand>) -> Self {
-        Self { sent, errands }
+    pub(crate) fn new(
+        sent: &'a mut Vec<(u8, Value)>,
+        errands: &'a mut Vec<Errand>,
+        spares: &'a mut Spares,
+    ) -> Self {
+        Self {
+            sent,
+            errands,
+            spares,
+        }
     }
 
     /// Sends on output `number`, counted from 1.
-    pub fn send(&mut self, number: u8, value: impl Into<Value>) {
-        self.sent.push((number, value.into()));
+    pub fn send(&mut self, number: u8, value: impl Message) {
+        self.sent.push((number, value.into_message(self.spares)));
     }
 
     /// Sends text on output `number`, unless it is too long to travel.

@@ -26,6 +26,7 @@ pub use command::{
 pub use diagnostic::{Diagnostic, Located, Position, Severity};
 pub use forms::{FORMS, Form, Section};
 pub use name::Name;
+pub(crate) use name::Spelling;
 pub use node::{
     Attributes, Axis, BSpline, Boundaries, Characters, Comparison, Dimension, Font, Glyph, GlyphVector,
     Illumination, Label, Labels, Member, Node, Operation, Pattern, Polygon, PolygonVertex, Polynomial, Range,

@@ -4,6 +4,7 @@
 //! structure is reached as `structure.label`. That case does not matter, and that a name is shown as it
 //! was first written, are this project's rules.
 
+use std::borrow::Borrow;
 use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
@@ -49,10 +50,63 @@ impl Name {
     pub(crate) fn continues(character: char) -> bool {
         character.is_alphanumeric() || character == '_' || character == '$'
     }
+}
 
-    fn folded(&self) -> impl Iterator<Item = u8> {
-        self.0.bytes().map(|byte| byte.to_ascii_lowercase())
+/// Text that can be looked up among names as it is.
+pub(crate) trait Spelled {
+    fn spelling(&self) -> &str;
+}
+
+impl Spelled for Name {
+    fn spelling(&self) -> &str {
+        &self.0
     }
+}
+
+impl Spelled for &str {
+    fn spelling(&self) -> &str {
+        self
+    }
+}
+
+/// The spelling of a name, whatever it is kept in.
+pub(crate) type Spelling<'a> = dyn Spelled + 'a;
+
+impl<'a> Borrow<Spelling<'a>> for Name {
+    fn borrow(&self) -> &Spelling<'a> {
+        self
+    }
+}
+
+impl PartialEq for Spelling<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.spelling().eq_ignore_ascii_case(other.spelling())
+    }
+}
+impl Eq for Spelling<'_> {}
+
+impl PartialOrd for Spelling<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Spelling<'_> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        compare(self.spelling(), other.spelling())
+    }
+}
+
+/// In the order of the bytes, capitals as small letters.
+fn compare(a: &str, b: &str) -> Ordering {
+    let different = |(x, y): (u8, u8)| {
+        let order = x.to_ascii_lowercase().cmp(&y.to_ascii_lowercase());
+        (order != Ordering::Equal).then_some(order)
+    };
+    a.bytes()
+        .zip(b.bytes())
+        .find_map(different)
+        .unwrap_or(a.len().cmp(&b.len()))
 }
 
 impl From<&str> for Name {
@@ -82,13 +136,13 @@ impl PartialOrd for Name {
 
 impl Ord for Name {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.folded().cmp(other.folded())
+        compare(&self.0, &other.0)
     }
 }
 
 impl Hash for Name {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        for byte in self.folded() {
+        for byte in self.0.bytes().map(|byte| byte.to_ascii_lowercase()) {
             state.write_u8(byte);
         }
         state.write_u8(0xff); // Not in UTF-8, so names of different lengths stay apart.

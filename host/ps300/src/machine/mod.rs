@@ -96,7 +96,7 @@ impl Surroundings for Around<'_> {
     }
 
     fn inlet(&self, name: &str, input: Input) -> Option<Inlet> {
-        match (self.names.thing(&Name::new(name))?, input) {
+        match (self.names.named(name)?, input) {
             (Thing::Instance(to), Input::Number(number)) => Some(Inlet::Function {
                 to,
                 input: u8::try_from(number).ok()?,
@@ -111,7 +111,7 @@ impl Surroundings for Around<'_> {
     }
 
     fn variable(&self, name: &str) -> Option<InstanceId> {
-        match self.names.thing(&Name::new(name))? {
+        match self.names.named(name)? {
             Thing::Instance(id) => Some(id),
             _ => None,
         }
@@ -166,7 +166,11 @@ impl Machine {
     /// An output of a device or function, for [`Machine::emit_from`]. Ask again after commands that may
     /// have deleted or redefined `name`; devices stay.
     pub fn outlet(&self, name: &str, output: u8) -> Option<Outlet> {
-        match self.names.thing(&Name::new(name))? {
+        // Devices were made first, in this order, and are what hosts ask for.
+        if let Some(at) = devices::SOURCES.iter().position(|source| source.name == name) {
+            return self.network.outlet(InstanceId(at as u32), output);
+        }
+        match self.names.named(name)? {
             Thing::Instance(id) => self.network.outlet(id, output),
             _ => None,
         }
@@ -315,7 +319,7 @@ impl Machine {
 
     /// Whether commands, the host or the machine itself have given `name` a meaning.
     pub fn is_defined(&self, name: &str) -> bool {
-        self.names.thing(&Name::new(name)).is_some()
+        self.names.named(name).is_some()
     }
 
     /// Records every message of an output from now on. False if there is no such output.
@@ -367,7 +371,7 @@ impl Machine {
 
     /// The value a variable or constant holds at its first input.
     pub fn held(&self, name: &str) -> Option<&Value> {
-        match self.names.thing(&Name::new(name))? {
+        match self.names.named(name)? {
             Thing::Instance(id) => self.network.held(id),
             _ => None,
         }

@@ -13,7 +13,7 @@ impl Machine {
     /// What the function `name` remembers beyond its inputs. Empty: it is as new, or it never remembers
     /// anything, or it is no function.
     pub fn remembered(&self, name: &str) -> Vec<Value> {
-        match self.names.thing(&Name::new(name)) {
+        match self.names.named(name) {
             Some(Thing::Instance(id)) => self
                 .network
                 .instance(id)
@@ -25,7 +25,7 @@ impl Machine {
     /// Makes the function `name` remember what [`Machine::remembered`] gave of another of its type. Set the
     /// constants before: some restart it. False, and nothing has changed, where it does not fit.
     pub fn recall(&mut self, name: &str, state: &[Value]) -> bool {
-        match self.names.thing(&Name::new(name)) {
+        match self.names.named(name) {
             Some(Thing::Instance(id)) => self.network.recall(id, state),
             _ => false,
         }

@@ -90,7 +90,7 @@ impl Network {
             let _ = clock.advance(
                 self.now,
                 &inputs,
-                &mut Outputs::new(&mut self.sent, &mut self.errands),
+                &mut Outputs::new(&mut self.sent, &mut self.errands, &mut self.spares),
             );
         }
         self.sent.clear();

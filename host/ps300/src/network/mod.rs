@@ -39,7 +39,7 @@ use batch::{Allowance, Arrivals};
 use instance::{Behaviour, Description};
 use queues::Queues;
 
-use crate::intrinsic::{Errand, Now};
+use crate::intrinsic::{Errand, Now, Spares};
 use crate::language::Name;
 use crate::value::{Kinds, Value};
 
@@ -130,6 +130,7 @@ pub(crate) struct Network {
     // Lent to each firing and given back, so that firing does not allocate.
     sent: Vec<(u8, Value)>,
     errands: Vec<Errand>,
+    spares: Spares,
 }
 
 impl Network {
@@ -156,6 +157,7 @@ impl Network {
             watched: VecDeque::new(),
             sent: Vec::new(),
             errands: Vec::new(),
+            spares: Spares::default(),
         }
     }
 

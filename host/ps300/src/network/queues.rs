@@ -216,15 +216,20 @@ impl Queues {
 
     /// Takes one message from every active queue, or of an instance that any one message sets off, that one.
     pub(super) fn consume(&mut self, id: InstanceId) {
-        if self.head(id).is_some_and(|head| head.each) {
-            let first = self.ports(id).iter().position(|port| port.waiting() > 0);
-            if let Some(at) = first {
-                self.pop(id, at);
-            }
+        let Some(head) = self.heads.get_mut(id.0 as usize) else {
             return;
-        }
-        for at in 0..self.ports(id).len() {
-            self.pop(id, at);
+        };
+        let ports = self.inputs.get_mut(head.inputs()).unwrap_or_default();
+        let taken_from = if head.each { 1 } else { ports.len() };
+        let waiting = ports
+            .iter_mut()
+            .filter(|port| !port.constant && port.front().is_some());
+        for port in waiting.take(taken_from) {
+            if port.pop() {
+                self.behind -= 1;
+            } else {
+                head.missing = head.missing.saturating_add(1);
+            }
         }
     }
 

@@ -126,8 +126,8 @@ impl Network {
             return;
         };
         head.queued = false;
-        if let Some((at, result)) = self.queues.fire_scalar(id) {
-            self.send_at(Outlet { from: id, output: 1 }, at as usize, result, outside);
+        if let Some((at, mut result)) = self.queues.fire_scalar(id) {
+            self.send_at(Outlet { from: id, output: 1 }, at as usize, &mut result, outside);
         } else if self.queues.is_ready(id) {
             // If not, SETUP CNESS has come between becoming ready and firing.
             self.fire_any(id, outside);
@@ -173,19 +173,25 @@ impl Network {
         };
         let size = self.queues.head(id).map_or(0, |head| head.size);
         let inputs = Inputs::new(self.queues.ports(id), size);
-        act(
-            behaviour,
-            &inputs,
-            &mut Outputs::new(&mut self.sent, &mut self.errands),
-        )
+        let mut outputs = Outputs::new(&mut self.sent, &mut self.errands, &mut self.spares);
+        act(behaviour, &inputs, &mut outputs)
     }
 
     /// Delivers what an instance has computed.
     fn send_all(&mut self, id: InstanceId, outside: &mut impl Surroundings) {
         let mut sent = std::mem::take(&mut self.sent);
-        for (output, value) in sent.drain(..) {
-            self.send_out(Outlet { from: id, output }, value, outside);
+        for (output, value) in &mut sent {
+            self.send_out(
+                Outlet {
+                    from: id,
+                    output: *output,
+                },
+                value,
+                outside,
+            );
+            self.spares.keep(value);
         }
+        sent.clear();
         self.sent = sent;
         if !self.errands.is_empty() {
             let mut errands = std::mem::take(&mut self.errands);

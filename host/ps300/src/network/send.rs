@@ -10,14 +10,16 @@ use crate::language::Input;
 use crate::value::Value;
 
 impl Network {
-    /// Sends on an output: to every destination in the order of CONNECT.
-    pub(crate) fn send_out(&mut self, from: Outlet, value: Value, outside: &mut impl Surroundings) {
+    /// Sends on an output: to every destination in the order of CONNECT. The message may be another afterwards,
+    /// of which only the memory is of use.
+    pub(crate) fn send_out(&mut self, from: Outlet, value: &mut Value, outside: &mut impl Surroundings) {
         let Some(at) = self.output_at(from) else {
             return;
         };
-        match value {
-            Value::Real(x) => self.send_at(from, at, x, outside),
-            value => self.send_at(from, at, value, outside),
+        if let Value::Real(x) = value {
+            self.send_at(from, at, x, outside);
+        } else {
+            self.send_at(from, at, value, outside);
         }
     }
 
@@ -27,7 +29,7 @@ impl Network {
         &mut self,
         from: Outlet,
         at: usize,
-        token: impl Token,
+        token: &mut impl Token,
         outside: &mut impl Surroundings,
     ) {
         if !token.is_finite() {
@@ -36,11 +38,11 @@ impl Network {
         let Some(output) = self.outputs.get_mut(at) else {
             return;
         };
-        if (output.frozen || output.watched) && !self.look_at(from, at, &token) {
+        if (output.frozen || output.watched) && !self.look_at(from, at, token) {
             return;
         }
         let mut next = 0;
-        while let Some((inlet, hindrance)) = self.deliver_some(at, &mut next, &token) {
+        while let Some((inlet, hindrance)) = self.deliver_some(at, &mut next, token) {
             token.lend(|value| self.deliver_otherwise(inlet, hindrance, value, outside));
         }
         if let Some(output) = self.outputs.get_mut(at) {
@@ -198,7 +200,7 @@ impl Network {
             },
             Errand::Fetch { name, output } => {
                 match outside.variable(&name).and_then(|id| self.held(id)).cloned() {
-                    Some(value) => self.send_out(Outlet { from, output }, value, outside),
+                    Some(mut value) => self.send_out(Outlet { from, output }, &mut value, outside),
                     None => self.report(
                         from,
                         Cause::Unknown {

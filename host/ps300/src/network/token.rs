@@ -18,8 +18,8 @@ pub(super) trait Token {
     /// Puts a copy where nothing is.
     fn put(&self, into: &mut Option<Value>);
 
-    /// Leaves the message in a place for looking at, where another may be.
-    fn leave(self, in_place: &mut Option<Value>);
+    /// Leaves the message in a place for looking at. What was there may come back in its stead.
+    fn leave(&mut self, in_place: &mut Option<Value>);
 }
 
 impl Token for f64 {
@@ -49,11 +49,11 @@ impl Token for f64 {
     }
 
     #[inline]
-    fn leave(self, in_place: &mut Option<Value>) {
+    fn leave(&mut self, in_place: &mut Option<Value>) {
         if let Some(Value::Real(x)) = in_place {
-            *x = self;
+            *x = *self;
         } else {
-            *in_place = Some(Value::Real(self));
+            *in_place = Some(Value::Real(*self));
         }
     }
 }
@@ -92,8 +92,19 @@ impl Token for Value {
         });
     }
 
+    /// Where the kinds agree only what they carry is moved.
     #[inline]
-    fn leave(self, in_place: &mut Option<Value>) {
-        *in_place = Some(self);
+    fn leave(&mut self, in_place: &mut Option<Value>) {
+        match (self, in_place) {
+            (Self::Real(x), Some(Self::Real(place))) => *place = *x,
+            (Self::Integer(n), Some(Self::Integer(place))) => *place = *n,
+            (Self::Boolean(b), Some(Self::Boolean(place))) => *place = *b,
+            (Self::Vector2(v), Some(Self::Vector2(place))) => *place = *v,
+            (Self::Vector3(v), Some(Self::Vector3(place))) => *place = *v,
+            (Self::Matrix3(m), Some(Self::Matrix3(place))) => std::mem::swap(m, place),
+            (Self::Matrix4(m), Some(Self::Matrix4(place))) => std::mem::swap(m, place),
+            (message, Some(place)) => std::mem::swap(message, place),
+            (message, place) => *place = Some(message.clone()),
+        }
     }
 }
