@@ -24,8 +24,8 @@ const DELIVERIES_PER_FIRING: u64 = 64;
 #[derive(Clone, Copy, Default)]
 pub(super) struct Allowance {
     pub(super) firings_left: u32,
-    /// The count of deliveries at which it ends.
-    deliveries_end: u64,
+    /// The count of deliveries after which it ends.
+    pub(super) deliveries_end: u64,
 }
 
 impl Allowance {
@@ -36,12 +36,8 @@ impl Allowance {
         }
     }
 
-    pub(super) fn is_delivered(&self, delivered: u64) -> bool {
-        delivered > self.deliveries_end
-    }
-
     pub(super) fn is_used_up(&self, delivered: u64) -> bool {
-        self.firings_left == 0 || self.is_delivered(delivered)
+        self.firings_left == 0 || delivered > self.deliveries_end
     }
 }
 

@@ -195,18 +195,29 @@ impl Queues {
         let head = self.heads.get_mut(id.0 as usize)?;
         let scalar = head.scalar?;
         let ports = self.inputs.get_mut(head.inputs())?;
-        let result = match ports {
-            [only] => scalar(only.real()?, 0.0),
-            [first, second] => scalar(first.real()?, second.real()?),
-            _ => return None,
-        };
-        for port in ports.iter_mut().filter(|port| !port.constant) {
-            if port.pop() {
-                self.behind -= 1;
+        let behind = &mut self.behind;
+        let mut take = |port: &mut InputPort| {
+            if port.constant {
+            } else if port.pop() {
+                *behind -= 1;
             } else {
                 head.missing += 1;
             }
-        }
+        };
+        let result = match ports {
+            [only] => {
+                let result = scalar(only.real()?, 0.0);
+                take(only);
+                result
+            }
+            [first, second] => {
+                let result = scalar(first.real()?, second.real()?);
+                take(first);
+                take(second);
+                result
+            }
+            _ => return None,
+        };
         if head.missing == 0 {
             head.queued = true;
             self.ready.push(id);

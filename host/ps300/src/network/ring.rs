@@ -56,8 +56,10 @@ impl Ring {
     }
 
     #[inline]
-    pub(super) fn pop(&mut self) {
-        self.first += usize::from(!self.is_empty());
+    pub(super) fn pop(&mut self) -> Option<InstanceId> {
+        let front = self.front()?;
+        self.first += 1;
+        Some(front)
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = InstanceId> + '_ {
@@ -98,7 +100,7 @@ mod tests {
             ring.reserve(64 + round);
             while ring.len() > 20 {
                 assert_eq!(ring.front(), Some(InstanceId(next_out)));
-                ring.pop();
+                assert_eq!(ring.pop(), Some(InstanceId(next_out)));
                 next_out += 1;
             }
         }

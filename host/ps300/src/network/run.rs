@@ -68,42 +68,47 @@ impl Network {
     /// Fires ready instances, oldest readiness first, `firings_max` at most, and lets in the batches whose
     /// turn it is. The sequence of firings does not depend on `firings_max`.
     pub(crate) fn run(&mut self, firings_max: u32, outside: &mut impl Surroundings) -> Ran {
-        let slice = Allowance::new(firings_max, self.delivered);
-        let mut firings = 0;
+        let mut slice = Allowance::new(firings_max, self.delivered);
         loop {
-            while !self.batch_over {
-                let Some(id) = self.queues.ready.front() else {
-                    break;
-                };
-                if self.batch.is_used_up(self.delivered) {
-                    self.report(id, Cause::OutOfBudget);
-                    break;
+            if !self.batch_over {
+                self.fire_ready(&mut slice, outside);
+                if let Some(next) = self.queues.ready.front() {
+                    if !self.batch.is_used_up(self.delivered) {
+                        break;
+                    }
+                    self.report(next, Cause::OutOfBudget);
                 }
-                if firings == firings_max || slice.is_delivered(self.delivered) {
-                    return self.interrupted(firings);
-                }
-                self.queues.ready.pop();
-                firings += 1;
-                self.batch.firings_left -= 1;
-                self.fire(id, outside);
             }
             self.batch_over = true;
             if !self.admit(outside) {
                 break;
             }
         }
+        let firings = firings_max - slice.firings_left;
         if self.queues.ready.is_empty() {
             Ran::Quiet { firings }
         } else {
-            self.interrupted(firings)
+            Ran::OutOfBudget {
+                firings,
+                waiting: self.queues.ready.len() as u32,
+            }
         }
     }
 
-    fn interrupted(&self, firings: u32) -> Ran {
-        Ran::OutOfBudget {
-            firings,
-            waiting: self.queues.ready.len() as u32,
+    /// Fires until nothing is ready, or what the slice or the batch allows is used up.
+    fn fire_ready(&mut self, slice: &mut Allowance, outside: &mut impl Surroundings) {
+        let allowed = slice.firings_left.min(self.batch.firings_left);
+        let deliveries_end = slice.deliveries_end.min(self.batch.deliveries_end);
+        let mut fired = 0;
+        while fired < allowed
+            && self.delivered <= deliveries_end
+            && let Some(id) = self.queues.ready.pop()
+        {
+            fired += 1;
+            self.fire(id, outside);
         }
+        slice.firings_left -= fired;
+        self.batch.firings_left -= fired;
     }
 
     /// Moves network time and lets the clocks send; nothing fires yet.
