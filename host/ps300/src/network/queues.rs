@@ -311,3 +311,65 @@ impl Queues {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::intrinsic::{Does, InputSpec, Inputs, Outputs, Spares, table};
+
+    const NUMBERS: [f64; 9] = [
+        0.0,
+        -0.0,
+        1.5,
+        -2.0,
+        1e-300,
+        1e300,
+        -1e308,
+        f64::MAX,
+        f64::MIN_POSITIVE,
+    ];
+
+    /// What the function's own rule sends.
+    fn ruled(does: &Does, numbers: &[f64]) -> Vec<(u8, Value)> {
+        let Does::Pure(fire) = does else {
+            panic!("it has a memory")
+        };
+        let ports: Vec<_> = numbers
+            .iter()
+            .map(|number| {
+                let mut port = InputPort::new(InputSpec::active(Kinds::ANY));
+                port.take_first(number);
+                port
+            })
+            .collect();
+        let (mut sent, mut errands, mut spares) = (Vec::new(), Vec::new(), Spares::default());
+        let mut outputs = Outputs::new(&mut sent, &mut errands, &mut spares);
+        assert_eq!(fire(&Inputs::new(&ports, 0), &mut outputs), Ok(()));
+        assert!(errands.is_empty());
+        sent
+    }
+
+    #[test]
+    fn short_cuts_for_real_numbers_lead_where_the_rules_do() {
+        let mut count = 0;
+        for spec in table() {
+            let Some(scalar) = spec.scalar else { continue };
+            count += 1;
+            for a in NUMBERS {
+                for b in NUMBERS {
+                    let numbers = if spec.inputs.len() == 1 {
+                        vec![a]
+                    } else {
+                        vec![a, b]
+                    };
+                    let short = scalar(a, b);
+                    let [(1, Value::Real(long))] = ruled(&spec.does, &numbers)[..] else {
+                        panic!("F:{} does not send one real number", spec.name)
+                    };
+                    assert_eq!(short.to_bits(), long.to_bits(), "F:{} of {a} and {b}", spec.name);
+                }
+            }
+        }
+        assert_eq!(count, 10);
+    }
+}
