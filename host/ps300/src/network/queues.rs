@@ -350,6 +350,13 @@ mod tests {
     }
 
     #[test]
+    fn what_every_message_touches_is_small() {
+        assert_eq!(size_of::<Head>(), 24);
+        assert_eq!(size_of::<InputPort>(), 48);
+        assert_eq!(size_of::<super::super::OutputPort>(), 64);
+    }
+
+    #[test]
     fn short_cuts_for_real_numbers_lead_where_the_rules_do() {
         let mut count = 0;
         for spec in table() {
