@@ -9,6 +9,7 @@ mod objects;
 mod pages;
 mod paths;
 mod pickup_banks;
+mod pictures;
 mod posing;
 mod record;
 mod session;

@@ -71,6 +71,12 @@ fn every_network_is_in_order_and_prints_as_something_that_reads_the_same() {
     }
 }
 
+#[test]
+fn every_shipped_show_is_in_order() {
+    let printed = Desk::new().run("for show in shows/*; do dialrig check $show -q || echo $show; done");
+    assert_eq!(printed, "");
+}
+
 /// What a hand does next.
 fn act(draws: &mut Draws) -> impl Fn(&mut Hands) + use<> {
     let (what, key, dial) = (
