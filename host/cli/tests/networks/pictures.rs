@@ -16,9 +16,7 @@ use crate::session::{is_updating, root};
 /// A drawing: its name, the files of `networks`, and what is done before it is drawn.
 const DRAWINGS: &[(&str, &[&str], fn(&mut Hands))] = &[
     ("dials", &["dials.ps300"], |hands| {
-        for (dial, turns) in [(1, 0.15), (2, 0.1), (3, 0.1), (8, 0.5)] {
-            hands.turn(dial, turns);
-        }
+        turn(hands, &[(1, 0.15), (2, 0.1), (3, 0.1), (8, 0.5)]);
     }),
     ("light", &["pages/objects.ps300"], |hands| {
         hands.press(12);
@@ -32,16 +30,12 @@ const DRAWINGS: &[(&str, &[&str], fn(&mut Hands))] = &[
         }
         hands.turn(1, 1.0);
         hands.press(12);
-        for (dial, turns) in [(5, 0.2), (6, 0.2), (2, 1.0), (1, 1.0)] {
-            hands.turn(dial, turns);
-        }
+        turn(hands, &[(5, 0.2), (6, 0.2), (2, 1.0), (1, 1.0)]);
     }),
     ("path", &["pages/paths.ps300"], |hands| {
         hands.press(6);
         hands.press(6);
-        for (dial, turns) in [(1, 1.0), (2, 0.3), (3, -0.6)] {
-            hands.turn(dial, turns);
-        }
+        turn(hands, &[(1, 1.0), (2, 0.3), (3, -0.6)]);
         hands.press(2);
     }),
     ("posing", &["pages/posing.ps300"], |hands| {
@@ -67,19 +61,20 @@ const DRAWINGS: &[(&str, &[&str], fn(&mut Hands))] = &[
             "mirror/switch.ps300",
         ],
         |hands| {
-            let dials = [(1, 0.25), (2, 0.4), (3, 0.8)];
-            dials.iter().for_each(|&(dial, turns)| hands.turn(dial, turns));
+            turn(hands, &[(1, 0.25), (2, 0.4), (3, 0.8)]);
             hands.press(2);
-            [(1, 0.25), (2, -0.8), (3, 0.4)]
-                .iter()
-                .for_each(|&(dial, turns)| hands.turn(dial, turns));
+            turn(hands, &[(1, 0.25), (2, -0.8), (3, 0.4)]);
             hands.press(3);
-            [(1, -0.03), (2, 0.02)]
-                .iter()
-                .for_each(|&(dial, turns)| hands.turn(dial, turns));
+            turn(hands, &[(1, -0.03), (2, 0.02)]);
         },
     ),
 ];
+
+fn turn(hands: &mut Hands, dials: &[(u8, f64)]) {
+    for &(dial, turns) in dials {
+        hands.turn(dial, turns);
+    }
+}
 
 /// Half the width of a drawing.
 const HALF: f64 = 160.0;
