@@ -13,8 +13,11 @@ use ps300::display::{Stroke, View};
 use crate::hands::Hands;
 use crate::session::{is_updating, root};
 
+/// What hands do before a network is drawn.
+type Done = fn(&mut Hands);
+
 /// A drawing: its name, the files of `networks`, and what is done before it is drawn.
-const DRAWINGS: &[(&str, &[&str], fn(&mut Hands))] = &[
+const DRAWINGS: &[(&str, &[&str], Done)] = &[
     ("dials", &["dials.ps300"], |hands| {
         turn(hands, &[(1, 0.15), (2, 0.1), (3, 0.1), (8, 0.5)]);
     }),
