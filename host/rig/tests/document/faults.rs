@@ -2,46 +2,9 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::Arc;
 
-use rig::document::{self, ClipDoc, NetworkFile, Show, check};
-
-fn salute() -> Show {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows/salute");
-    document::load(&folder).expect("the shipped show loads").show
-}
-
-/// A show that uses every part of the formats.
-fn rich() -> Show {
-    let mut show = salute().with_patch("SEND 1 TO <1>A;");
-    show.name = "With \"quotes\" and\ttabs".into();
-    let mut keys = show.current_clip().expect("a clip").keys.clone();
-    let mut stretched = keys[2].as_ref().clone();
-    stretched.pose.links[3].length = 0.175;
-    stretched.pose.links[0].twist_rad = 12.5;
-    keys[2] = Arc::new(stretched);
-    let clip = ClipDoc {
-        keys,
-        coefficient_edits: vec![(2, 0.125), (4, -0.25)],
-        keep_forward: true,
-        frame_secs: Some(0.04),
-        twist_law: motion::TwistLaw::Zyz,
-        direction_law: motion::DirectionLaw::Chord,
-        ..ClipDoc::default()
-    };
-    show.view = Some(rig::ViewState {
-        azimuth_rad: 0.0,
-        elevation_rad: 0.0,
-        scale: 0.75,
-        centre: glam::DVec3::Y,
-    });
-    show.networks.push(Arc::new(NetworkFile {
-        name: "more".into(),
-        text: "{ nothing }\n".into(),
-    }));
-    show.with_clip("a second one", clip)
-        .with_clip("empty", ClipDoc::default())
-}
+use super::rich;
+use rig::document::{self, check};
 
 #[test]
 fn a_newer_version_is_refused_with_advice() {

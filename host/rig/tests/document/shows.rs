@@ -1,20 +1,11 @@
 //! The shipped shows: they load without errors, say what they should, and stand on the ground.
 
-use std::path::{Path, PathBuf};
-
-use rig::document::{self, Show, check};
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows/salute")
-}
-
-fn salute() -> Show {
-    document::load(&folder()).expect("the shipped show loads").show
-}
+use super::{salute, salute_folder};
+use rig::document::{self, check};
 
 #[test]
 fn the_printed_human_loads_with_a_warning_for_each_thigh() {
-    let loaded = document::load(&folder()).expect("loads");
+    let loaded = document::load(&salute_folder()).expect("loads");
     let places: Vec<(u32, bool)> = loaded
         .warnings
         .iter()
@@ -29,7 +20,7 @@ fn the_printed_human_loads_with_a_warning_for_each_thigh() {
 
 #[test]
 fn checking_finds_nothing_wrong() {
-    let found = check::check_file(&folder());
+    let found = check::check_file(&salute_folder());
     assert_eq!(found.errors, []);
     assert!(
         found

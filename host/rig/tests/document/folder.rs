@@ -3,52 +3,11 @@
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
+use super::{rich, salute};
 use rig::document::disk::{Disk, RealDisk};
 use rig::document::save::{discard_autosave, save_through};
-use rig::document::{self, ClipDoc, NetworkFile, Show, check};
-
-fn tests_folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
-}
-
-fn salute() -> Show {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows/salute");
-    document::load(&folder).expect("the shipped show loads").show
-}
-
-/// A show that uses every part of the formats.
-fn rich() -> Show {
-    let mut show = salute().with_patch("SEND 1 TO <1>A;");
-    show.name = "With \"quotes\" and\ttabs".into();
-    let mut keys = show.current_clip().expect("a clip").keys.clone();
-    let mut stretched = keys[2].as_ref().clone();
-    stretched.pose.links[3].length = 0.175;
-    stretched.pose.links[0].twist_rad = 12.5;
-    keys[2] = Arc::new(stretched);
-    let clip = ClipDoc {
-        keys,
-        coefficient_edits: vec![(2, 0.125), (4, -0.25)],
-        keep_forward: true,
-        frame_secs: Some(0.04),
-        twist_law: motion::TwistLaw::Zyz,
-        direction_law: motion::DirectionLaw::Chord,
-        ..ClipDoc::default()
-    };
-    show.view = Some(rig::ViewState {
-        azimuth_rad: 0.0,
-        elevation_rad: 0.0,
-        scale: 0.75,
-        centre: glam::DVec3::Y,
-    });
-    show.networks.push(Arc::new(NetworkFile {
-        name: "more".into(),
-        text: "{ nothing }\n".into(),
-    }));
-    show.with_clip("a second one", clip)
-        .with_clip("empty", ClipDoc::default())
-}
+use rig::document::{self, ClipDoc, Show, check};
 
 #[test]
 fn what_is_saved_is_what_was_there() {
@@ -181,7 +140,8 @@ fn an_autosave_is_offered_until_the_show_is_saved() {
 
 #[test]
 fn version_0_is_still_read() {
-    let loaded = document::load(&tests_folder().join("document-version-0")).expect("an old show loads");
+    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/document");
+    let loaded = document::load(&here.join("version-0")).expect("an old show loads");
     let show = loaded.show;
     assert_eq!((show.name.as_str(), show.clip.as_str()), ("Old wave", "wave"));
     let clip = show.current_clip().expect("a clip");

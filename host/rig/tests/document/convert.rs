@@ -1,18 +1,15 @@
 //! Converting by file name: tables and figures come out right, and a person's files are never overwritten.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use super::{salute, salute_folder};
 use rig::document::convert::convert;
 use rig::document::{self, csv};
 
-fn salute() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows/salute")
-}
-
 #[test]
 fn a_table_has_a_row_for_each_frame_and_link() {
-    let show = document::load(&salute()).expect("loads").show;
+    let show = salute();
     let table = csv::export(&show).expect("exports");
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 1 + 181 * 15, "6 s at 30 frames a second, both ends");
@@ -37,19 +34,23 @@ fn a_table_has_a_row_for_each_frame_and_link() {
 fn a_structure_file_becomes_a_show_with_its_shapes() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let made = folder.path().join("human");
-    let converted = convert(&salute().join("figure/ar.str"), &made).expect("converts");
+    let converted = convert(&salute_folder().join("figure/ar.str"), &made).expect("converts");
     assert_eq!(converted.warnings.len(), 2, "the thighs");
     let show = document::load(&made.join("show.toml")).expect("loads").show;
-    assert_eq!(show.figure, document::load(&salute()).expect("loads").show.figure);
+    assert_eq!(show.figure, salute().figure);
     for file in ["ar.str", "ar.pri", "ar.shp"] {
         let bytes = |folder: &Path| fs::read(folder.join("figure").join(file)).expect(file);
-        assert_eq!(bytes(&made), bytes(&salute()), "{file} is kept to the byte");
+        assert_eq!(
+            bytes(&made),
+            bytes(&salute_folder()),
+            "{file} is kept to the byte"
+        );
     }
 }
 
 #[test]
 fn lengths_that_change_are_missed_in_bvh_and_said_so() {
-    let mut show = document::load(&salute()).expect("loads").show;
+    let mut show = salute();
     let mut clip = show.current_clip().expect("a clip").as_ref().clone();
     let mut key = clip.keys[3].as_ref().clone();
     key.pose.links[3].length *= 1.5;
@@ -74,8 +75,8 @@ fn what_cannot_be_converted_is_refused_and_nothing_is_written() {
     fs::write(path("broken.bvh"), "HIERARCHY\n").expect("writes");
     fs::write(path("still.str"), "one link\n0 a 2 1\n").expect("writes");
     let cases = [
-        (salute(), path("photos"), "something else here"),
-        (salute(), path("x.obj"), "cannot write a `.obj`"),
+        (salute_folder(), path("photos"), "something else here"),
+        (salute_folder(), path("x.obj"), "cannot write a `.obj`"),
         (path("x.obj"), path("y"), "cannot read a `.obj`"),
         (path("nowhere"), path("y"), "cannot open"),
         (path("broken.bvh"), path("y"), "cut off"),

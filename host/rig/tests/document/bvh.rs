@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use super::salute;
 use glam::DVec3;
+use rig::document::Show;
 use rig::document::bvh::{self, BvhFile};
 use rig::document::convert::convert;
 use rig::document::source::Source;
-use rig::document::{self, Show};
 
 /// Joint positions worked out here from channels and offsets alone, another way than the importer does it.
 fn joints(file: &BvhFile, frame: usize) -> Vec<DVec3> {
@@ -275,8 +276,7 @@ fn too_deep_is_an_error_and_not_a_crash() {
 
 #[test]
 fn a_figure_of_the_thesis_goes_out_with_one_joint_a_link() {
-    let shows = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows/salute");
-    let show = document::load(&shows).expect("the shipped show loads").show;
+    let show = salute();
     let file = read(&bvh::export(&show).expect("exports").text);
     let figure = &show.figure.as_ref().expect("a figure").figure;
     let names: Vec<&str> = file

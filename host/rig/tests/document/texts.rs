@@ -1,13 +1,11 @@
 //! A show as a handful of texts, as a journal carries it.
 
-use std::path::Path;
-
+use super::salute;
 use rig::document;
 
 #[test]
 fn a_show_comes_back_from_its_texts() {
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shows/salute");
-    let show = document::load(&shipped).expect("the shipped show loads").show;
+    let show = salute();
     let texts = document::texts(&show).expect("it can be written");
     assert!(
         texts.contains_key("show.toml") && texts.contains_key("networks/figure.ps300"),
