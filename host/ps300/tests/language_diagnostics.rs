@@ -1,6 +1,6 @@
 //! What is said about faulty text, where, and what is read in spite of it.
 
-use ps300::language::{Severity, parse, print};
+use ps300::language::{FORMS, Severity, parse, print};
 
 struct Case {
     source: &'static str,
@@ -329,15 +329,56 @@ fn megabytes_of_anything_are_read_with_bounded_remarks() {
         "#",
         "é<1>",
         "f:f:",
+        "a := begin_font c[65]:\n",
+        "s := begin_s\n f := begin_font\n",
+        "send vl(",
+        "a := poly 0,0 ",
+        "a := labels 0,0 'a' ",
+        "a := bspline order=2 0,0 ",
+        "if lev <",
+        "'a' ",
+        "!",
     ];
     for noise in noises {
         let (_, diagnostics) = parse(&noise.repeat(1_000_000 / noise.len()));
         assert!(diagnostics.len() <= 501, "{noise}: {}", diagnostics.len());
     }
-    let list = format!("v := vector_list {};", "0.5,1e-3,-2 ".repeat(100_000));
-    let (commands, diagnostics) = parse(&list);
-    assert!(diagnostics.is_empty());
-    assert_eq!(commands.len(), 1);
+    for (begin, part, end) in [
+        ("v := vector_list ", "0.5,1e-3,-2 ", ";"),
+        ("l := labels ", "0,0 'a' ", ";"),
+        ("c := characters ", "'a' ", ";"),
+        ("f := begin_font ", "c[65]: p 0,0 l 1,1;", "end_font;"),
+        ("s := begin_s ", "f := f:add;", "end_s;"),
+        ("b := bspline order=2 chords=9 ", "0,0 ", ";"),
+        ("p := poly 0,0 1,0 1,1 ", "poly 0,0 1,0 1,1 ", ";"),
+        ("setup state ", "vl(dots n=0),", "1 in f;"),
+    ] {
+        let (commands, diagnostics) = parse(&format!("{begin}{}{end}", part.repeat(1_000_000 / part.len())));
+        assert!(diagnostics.is_empty(), "{begin}");
+        assert_eq!(commands.len(), 1, "{begin}");
+    }
+}
+
+/// A file that was only half written: whatever it ends in, what stands before is read.
+#[test]
+fn cut_texts_are_read_up_to_the_cut() {
+    for example in FORMS
+        .iter()
+        .flat_map(|section| section.forms)
+        .map(|form| form.example)
+    {
+        let whole = parse(example).0;
+        for end in (0..example.len()).filter(|&end| example.is_char_boundary(end)) {
+            let (commands, _) = parse(&example[..end]);
+            let same = commands
+                .iter()
+                .zip(&whole)
+                .take_while(|(cut, whole)| cut == whole)
+                .count();
+            // At most the command that was cut is something else.
+            assert!(commands.len() - same <= 1, "{}", &example[..end]);
+        }
+    }
 }
 
 #[test]
