@@ -154,13 +154,39 @@ impl Names {
         self.entry_mut(id).known = false;
     }
 
+    /// Takes FORGET back, unless the name leads elsewhere by now.
+    pub(crate) fn remember(&mut self, id: NameId) {
+        let name = self.entry(id).name.clone();
+        self.by_name.entry(name).or_insert(id);
+        let leads_here = self.find(&self.entry(id).name) == Some(id);
+        self.entry_mut(id).known = leads_here;
+    }
+
+    /// Takes FORGET back for a name whose thing is gone, so that what still refers to it finds the next.
+    pub(crate) fn revive(&mut self, name: &Name) {
+        let is_left = |entry: &Entry| !entry.known && entry.thing.is_none() && entry.name == *name;
+        if let Some(at) = self.entries.iter().position(is_left) {
+            self.remember(NameId(at as u32));
+        }
+    }
+
+    /// Gives entries their places in listings, as if they had just been defined in this order.
+    pub(crate) fn reorder(&mut self, order: &[NameId]) {
+        for &id in order {
+            self.definitions += 1;
+            self.entry_mut(id).defined = self.definitions;
+        }
+    }
+
     /// The name of an entry; for one that was forgotten, a name nothing else bears: its own where that is free.
     pub(crate) fn spelling(&self, id: NameId) -> Name {
         let entry = self.entry(id);
         if entry.known {
             return entry.name.clone();
         }
-        // Of several forgotten ones of one name, the oldest keeps it.
+        // Of several forgotten ones of one name one keeps it: one that denotes something, the oldest.
+        let rank = |at: usize, entry: &Entry| (entry.thing.is_none(), at);
+        let own = rank(id.0 as usize, entry);
         let taken = |name: &Name| {
             let others = self
                 .entries
@@ -168,8 +194,8 @@ impl Names {
                 .enumerate()
                 .filter(|(at, _)| *at != id.0 as usize);
             let mut forgotten = others.filter(|(_, other)| !other.known && other.name == *name);
-            let own = entry.name == *name;
-            self.by_name.contains_key(name) || forgotten.any(|(at, _)| !own || at < id.0 as usize)
+            let is_own = entry.name == *name;
+            self.by_name.contains_key(name) || forgotten.any(|(at, other)| !is_own || rank(at, other) < own)
         };
         let mut spare = entry.name.clone();
         if taken(&spare) {
@@ -189,6 +215,12 @@ impl Names {
             .collect();
         ids.sort_by_key(|&id| self.entry(id).defined);
         ids
+    }
+
+    /// The names that the machine and the host have given.
+    pub(crate) fn fixed(&self) -> impl Iterator<Item = (&Name, Thing)> {
+        let machine = self.entries.iter().filter(|entry| entry.owner == Owner::Machine);
+        machine.filter_map(|entry| Some((&entry.name, entry.thing?)))
     }
 
     /// Every known name that begins so, whatever it denotes.

@@ -62,7 +62,7 @@ impl Machine {
     pub(super) fn define_node_keeping(&mut self, name: &Name, node: &Node, kept: &Kept) -> Done {
         self.free(name)?;
         Structure::check(node).map_err(|error| build_error(name, error))?;
-        let mut functions = Vec::new();
+        let mut functions = BTreeMap::new();
         functions_in(node, &self.written(name), &mut functions)?;
         if functions.len() > self.network.room() {
             return Err(self.full());
@@ -74,7 +74,7 @@ impl Machine {
             self.clear(&full);
             self.names.define_label(&full, Thing::Node(id));
         }
-        for (full, spec, size) in functions {
+        for (full, (spec, size)) in functions {
             self.house(&full, spec, size, kept);
         }
         Ok(())
@@ -119,10 +119,6 @@ impl Machine {
             Some(&id) => Some(id),
             None => self.network.add(full.clone(), spec, size, Role::Function),
         };
-        if let Some(Thing::Instance(before)) = self.names.thing(full) {
-            // Two members of one label: the latter counts, as with nodes.
-            self.network.remove(&[before].into(), &[].into());
-        }
         if let Some(id) = id {
             self.names.define_label(full, Thing::Instance(id));
             let entry = self.names.find(full);
@@ -138,11 +134,11 @@ impl Machine {
     }
 }
 
-/// The functions among the members of a structure, by full name.
+/// The functions among the members of a structure, by full name. Of two members of one label the latter counts.
 fn functions_in(
     node: &Node,
     name: &Name,
-    found: &mut Vec<(Name, &'static Spec, Option<u8>)>,
+    found: &mut BTreeMap<Name, (&'static Spec, Option<u8>)>,
 ) -> Result<(), ExecuteError> {
     let Node::Structure(members) = node else {
         return Ok(());
@@ -152,7 +148,7 @@ fn functions_in(
         match (node, full) {
             (Node::Function { function, size }, Some(full)) => {
                 let (spec, size) = function_of(function, *size)?;
-                found.push((full, spec, size));
+                found.insert(full, (spec, size));
             }
             (node, full) => functions_in(node, full.as_ref().unwrap_or(name), found)?,
         }

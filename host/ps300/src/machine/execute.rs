@@ -27,7 +27,7 @@ impl Machine {
         Ok(super::with_network!(self, |network, around| network.run_command(firings, around)))
     }
 
-    fn take_effect(&mut self, command: &Command) -> Done {
+    pub(super) fn take_effect(&mut self, command: &Command) -> Done {
         if !matches!(command, Command::Send { .. } | Command::Store { .. }) {
             self.topology += 1;
         }

@@ -6,7 +6,7 @@
 use super::execute::Done;
 use super::{ExecuteError, Machine};
 use crate::language::{Command, Input, Name};
-use crate::network::{Cause, InputPort, Role};
+use crate::network::{InputPort, Role};
 use crate::value::Value;
 
 /// What has been begun and not ended.
@@ -50,14 +50,8 @@ impl Machine {
                     return nothing("there is no OPTIMIZE STRUCTURE to this END OPTIMIZE");
                 }
             }
-            Command::ReserveWorkingStorage { .. } => {
-                let why = "memory need not be reserved here; polygons are rendered without";
-                self.note(
-                    &Name::new("RESERVE_WORKING_STORAGE"),
-                    "command",
-                    Cause::Domain { why },
-                );
-            }
+            // Memory need not be reserved here; polygons are rendered without.
+            Command::ReserveWorkingStorage { .. } => {}
             Command::CommandStatus => {
                 let status = Value::from(self.status().as_str());
                 return self.deliver(&Name::new("MESSAGE_DISPLAY"), Input::Number(1), &status);

@@ -6,15 +6,18 @@
 //! how many firings a host allows in one tick never changes what happens, only when.
 
 mod activity;
+mod arrangement;
 mod copy;
 mod define;
 pub mod devices;
+mod difference;
 mod dot;
 mod error;
 mod execute;
 mod group;
 mod load;
 mod panel;
+mod patch;
 pub mod picture;
 mod program;
 mod program_state;
@@ -28,6 +31,7 @@ mod wires;
 pub use activity::{Activity, InputActivity, OutputActivity};
 pub use error::{DeclareError, ExecuteError};
 pub use panel::{LABEL_CHARACTERS, Panel};
+pub use patch::Refused;
 pub use terminal::{TERMINAL_COLUMNS, TERMINAL_LINES, Terminal};
 pub use view::{ConnectionView, InputView, InstanceView, OutputView};
 

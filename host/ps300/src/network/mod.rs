@@ -12,6 +12,7 @@ mod making;
 mod output;
 mod port;
 mod queues;
+mod rearrange;
 mod report;
 mod ring;
 mod run;

@@ -140,6 +140,20 @@ impl Structure {
         gone
     }
 
+    /// The full names of the labelled members of a structure, at any depth.
+    pub(crate) fn labels(&self, id: NodeId) -> Vec<Name> {
+        let mut found = Vec::new();
+        let mut open = vec![id];
+        while let Some(slot) = open.pop().and_then(|id| self.slot(id)) {
+            if let Body::Structure(members) = &slot.body {
+                open.extend(members.iter().map(|(_, member)| *member));
+                let labelled = members.iter().filter(|(label, _)| label.is_some());
+                found.extend(labelled.filter_map(|(_, member)| Some(self.slot(*member)?.name.clone())));
+            }
+        }
+        found
+    }
+
     /// The full names of the functions among the members of a structure, at any depth.
     pub(crate) fn functions(&self, id: NodeId) -> Vec<Name> {
         let mut found = Vec::new();
