@@ -8,6 +8,7 @@
 
 mod display;
 pub mod panels;
+pub mod patch;
 pub mod render;
 pub mod still;
 pub mod studio;

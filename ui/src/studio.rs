@@ -6,11 +6,13 @@
 use std::sync::Arc;
 
 use egui::{Rect, Ui, UiBuilder, pos2};
-use rig::{Command, PuppetCommand, Snapshot};
+use rig::{Command, PuppetCommand, Snapshot, TransportCommand};
 
 use crate::panels::layout::Areas;
+use crate::panels::patch::Patch;
 use crate::panels::{Choices, Commands, Panel, canvas, help, keyboard, style};
 use crate::panels::{desk, devices, header, keys, puppet, transport, view};
+use crate::patch::look::{Ask, Look};
 use crate::render::theme;
 use crate::watch::Watch;
 
@@ -56,7 +58,13 @@ pub struct Studio {
     panels: Vec<(Place, Box<dyn Panel>)>,
     choices: Choices,
     queue: Vec<Command>,
+    patch: Patch,
+    network: Option<Look>,
+    asks: Vec<Ask>,
 }
+
+/// Panels whose place the patch panel takes.
+const COVERED: [&str; 3] = ["front", "side", "transport"];
 
 /// Which of the layout's rectangles a panel takes.
 type Place = fn(&Areas) -> Rect;
@@ -84,7 +92,25 @@ impl Studio {
             panels,
             choices: Choices::default(),
             queue: Vec::new(),
+            patch: Patch::default(),
+            network: None,
+            asks: Vec::new(),
         }
+    }
+
+    /// The network as the patch panel is to show it.
+    pub fn see_network(&mut self, look: Option<Look>) {
+        self.network = look;
+    }
+
+    /// What hands on the patch panel wanted since the last call, in order.
+    pub fn take_asks(&mut self) -> Vec<Ask> {
+        std::mem::take(&mut self.asks)
+    }
+
+    /// The patch panel.
+    pub fn patch(&mut self) -> &mut Patch {
+        &mut self.patch
     }
 
     /// Draws everything into `ui`'s rectangle; returns what hands wanted since the last time, in order.
@@ -96,7 +122,11 @@ impl Studio {
         ui.set_clip_rect(window);
         let areas = Areas::of(window);
         ui.painter().rect_filled(window, 0.0, style::ink(theme::PANEL));
+        let patching = commands.choices.patch;
         for (place, panel) in &mut self.panels {
+            if patching && COVERED.contains(&panel.title()) {
+                continue;
+            }
             let area = place(&areas);
             let builder = UiBuilder::new().max_rect(area).id_salt(panel.title());
             ui.scope_builder(builder, |ui| {
@@ -104,7 +134,18 @@ impl Studio {
                 panel.ui(ui, seen, &mut commands);
             });
         }
-        separators(ui, &areas);
+        if patching {
+            let builder = UiBuilder::new().max_rect(areas.patch()).id_salt("patch");
+            let asked = ui.scope_builder(builder, |ui| {
+                ui.set_clip_rect(areas.patch().intersect(window));
+                self.patch.ui(ui, self.network.as_ref())
+            });
+            self.asks.extend(asked.inner.asks);
+            if asked.inner.play {
+                commands.push(Command::Transport(TransportCommand::Toggle));
+            }
+        }
+        separators(ui, &areas, patching);
         if self.choices.help {
             help::show(ui, areas.front.union(areas.side));
         }
@@ -118,12 +159,15 @@ impl Studio {
 }
 
 /// Hairlines between the panels.
-fn separators(ui: &Ui, areas: &Areas) {
+fn separators(ui: &Ui, areas: &Areas, patching: bool) {
     let painter = ui.painter();
     let edge = style::hair(theme::EDGE);
     let column = areas.header.left() + 0.5;
     painter.vline(column, areas.header.top()..=areas.devices.bottom(), edge);
-    for top in [areas.transport.top(), areas.desk.top()] {
+    for top in [areas.transport.top(), areas.desk.top()]
+        .into_iter()
+        .skip(usize::from(patching))
+    {
         painter.hline(areas.transport.left()..=column, top + 0.5, edge);
     }
     for top in [areas.keys.top(), areas.puppet.top(), areas.devices.top()] {

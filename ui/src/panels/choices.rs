@@ -13,4 +13,6 @@ pub struct Choices {
     pub coefficient: Option<usize>,
     /// Whether the page of keyboard shortcuts is shown.
     pub help: bool,
+    /// Whether the patch panel is shown instead of the figure.
+    pub patch: bool,
 }

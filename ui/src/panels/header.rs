@@ -7,12 +7,12 @@ use super::button::{Button, Icon};
 use super::{Commands, Panel, layout, style};
 use crate::render::theme;
 
-/// Name, undo, redo, save, and the page of keys.
+/// Name, the patch panel, undo, redo, save, and the page of keys.
 #[derive(Default)]
 pub struct Header;
 
-/// Widths of its buttons, points, from the right: help, save, redo, undo.
-const WIDTHS: [f32; 4] = [24.0, 48.0, 28.0, 28.0];
+/// Widths of its buttons, points, from the right: help, save, redo, undo, patch.
+const WIDTHS: [f32; 5] = [24.0, 44.0, 28.0, 28.0, 48.0];
 
 impl Panel for Header {
     fn title(&self) -> &'static str {
@@ -48,6 +48,11 @@ impl Panel for Header {
         let undo = Button::icon(Icon::Undo, "undo", &undo_tip, "Ctrl-Z").enabled(seen.undo.is_some());
         if undo.show(ui, cells[3]).clicked() {
             commands.push(Command::Undo);
+        }
+        let patch_tip = "The function network as boxes and wires, or the figure again.";
+        let patch = Button::new("Patch", patch_tip, "Ctrl-P").switch(commands.choices.patch);
+        if patch.show(ui, cells[4]).clicked() {
+            commands.choices.patch = !commands.choices.patch;
         }
         let name = if seen.show.is_empty() {
             "untitled"

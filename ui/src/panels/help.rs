@@ -7,17 +7,21 @@ use super::style::{self, ink};
 use crate::render::theme;
 
 /// Groups as they stand, column by column.
-const COLUMNS: [&[&str]; 3] = [
+const COLUMNS: [&[&str]; 4] = [
     &["time", "show"],
     &["pose", "keys", "desk"],
     &["view", "kinetics", "puppet"],
+    &["patch"],
 ];
 
 /// Keys that are not in the table because there are too many of them, or because they go before all others.
-const MORE: [(&str, &str, &str); 3] = [
+const MORE: [(&str, &str, &str); 6] = [
     ("puppet", "Esc", "STOP"),
     ("desk", "1 - 8", "choose a dial"),
     ("desk", "F1 - F12", "the keys of the desk"),
+    ("patch", "Wheel", "zoom at the pointer"),
+    ("patch", "Space-drag", "move the view; or middle-drag"),
+    ("patch", "Ctrl-Enter", "apply the text"),
 ];
 
 /// Shows the page in `area`.

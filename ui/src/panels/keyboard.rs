@@ -6,7 +6,7 @@ use rig::{
     ViewCommand,
 };
 
-use super::shortcuts::{Act, SHORTCUTS};
+use super::shortcuts::{Act, Place, SHORTCUTS};
 use super::transport::between_neighbours;
 use super::transport_buttons::stepped_speed;
 use super::{Commands, keys};
@@ -25,9 +25,23 @@ pub fn act(ctx: &Context, seen: &Snapshot, commands: &mut Commands<'_>) {
         commands.choices.help = false;
         commands.push(Command::Puppet(PuppetCommand::Stop));
     }
+    desk_keys(ctx, seen, commands);
+    // What is being typed is no order.
+    if ctx.text_edit_focused() {
+        return;
+    }
+    choose_dial(ctx, commands);
+    let elsewhere = if commands.choices.patch {
+        Place::Stage
+    } else {
+        Place::Patch
+    };
     // With a control in focus, Enter presses it and arrows look for its neighbours.
     let focused = ctx.memory(|memory| memory.focused().is_some());
-    for shortcut in SHORTCUTS {
+    for shortcut in SHORTCUTS
+        .iter()
+        .filter(|row| row.place != Place::Patch && row.place != elsewhere)
+    {
         let taken = matches!(
             shortcut.key,
             Key::Enter | Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown
@@ -40,11 +54,10 @@ pub fn act(ctx: &Context, seen: &Snapshot, commands: &mut Commands<'_>) {
             perform(shortcut.act, seen, commands);
         }
     }
-    desk_keys(ctx, seen, commands);
 }
 
-/// Digits choose dials; F1–F12 are the keys of the desk, down and up.
-fn desk_keys(ctx: &Context, seen: &Snapshot, commands: &mut Commands<'_>) {
+/// Digits choose dials.
+fn choose_dial(ctx: &Context, commands: &mut Commands<'_>) {
     const DIGITS: [Key; 8] = [
         Key::Num1,
         Key::Num2,
@@ -55,6 +68,16 @@ fn desk_keys(ctx: &Context, seen: &Snapshot, commands: &mut Commands<'_>) {
         Key::Num7,
         Key::Num8,
     ];
+    for (index, key) in DIGITS.into_iter().enumerate() {
+        if ctx.input_mut(|input| input.consume_key(NONE, key)) {
+            let again = commands.choices.dial == Some(index);
+            commands.choices.dial = (!again).then_some(index);
+        }
+    }
+}
+
+/// F1–F12 are the keys of the desk, down and up.
+fn desk_keys(ctx: &Context, seen: &Snapshot, commands: &mut Commands<'_>) {
     const FUNCTIONS: [Key; 12] = [
         Key::F1,
         Key::F2,
@@ -69,12 +92,6 @@ fn desk_keys(ctx: &Context, seen: &Snapshot, commands: &mut Commands<'_>) {
         Key::F11,
         Key::F12,
     ];
-    for (index, key) in DIGITS.into_iter().enumerate() {
-        if ctx.input_mut(|input| input.consume_key(NONE, key)) {
-            let again = commands.choices.dial == Some(index);
-            commands.choices.dial = (!again).then_some(index);
-        }
-    }
     let Some(device) = &seen.desk.simulated_device else {
         return;
     };
@@ -103,6 +120,7 @@ pub fn perform(act: Act, seen: &Snapshot, commands: &mut Commands<'_>) {
         Act::Ticks => return flip(&mut commands.choices.look.ticks),
         Act::Floor => return flip(&mut commands.choices.look.floor),
         Act::Help => return flip(&mut commands.choices.help),
+        Act::Patch => return flip(&mut commands.choices.patch),
         Act::Coefficient(by) => return choose_coefficient(by, seen, commands),
         Act::Toggle | Act::Frames(_) | Act::Ends(_) | Act::Key(_) | Act::Loop | Act::Speed(_) => {
             Some(Command::Transport(transport(act, seen)))

@@ -67,6 +67,11 @@ impl Areas {
         }
     }
 
+    /// The rectangle of the patch panel, which takes the place of the figure and its time.
+    pub fn patch(&self) -> Rect {
+        self.front.union(self.side).union(self.transport)
+    }
+
     /// All of them, with their names.
     pub fn all(&self) -> [(&'static str, Rect); 8] {
         [

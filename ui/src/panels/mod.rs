@@ -16,6 +16,7 @@ pub mod keyboard;
 pub mod keys;
 pub mod kinetics;
 pub mod layout;
+pub mod patch;
 pub mod puppet;
 pub mod shortcuts;
 pub mod style;

@@ -86,10 +86,49 @@ pub enum Act {
     Reset,
     /// The help page.
     Help,
+    /// The patch panel instead of the figure, or back.
+    Patch,
+    /// Patch: looks for something to add.
+    Add,
+    /// Patch: shows what is selected, or everything.
+    Frame,
+    /// Patch: deletes what is selected.
+    PatchDelete,
+    /// Patch: copies what is selected.
+    Duplicate,
+    /// Patch: takes the last edit back.
+    PatchUndo,
+    /// Patch: makes it again.
+    PatchRedo,
+    /// Patch: lays everything out anew.
+    LayOut,
+    /// Patch: folds or unfolds the structure under the pointer.
+    Fold,
+    /// Patch: pins a read-out of the output under the pointer, or takes it away.
+    Probe,
+    /// Patch: holds the output under the pointer back, or lets it go.
+    Freeze,
+    /// Patch: the text beside the graph, or not.
+    PatchText,
+    /// Patch: selects all boxes.
+    SelectAll,
+}
+
+/// Where a key means what its row says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// While the figure is shown.
+    Stage,
+    /// While the network is shown.
+    Patch,
+    /// Always.
+    Everywhere,
 }
 
 /// One row of the table.
 pub struct Shortcut {
+    /// Where it holds.
+    pub place: Place,
     /// Modifiers that must be held, and no others.
     pub modifiers: Modifiers,
     /// The key.
@@ -124,7 +163,13 @@ const fn row(
     keys: &'static str,
     does: &'static str,
 ) -> Shortcut {
+    let place = match group.as_bytes() {
+        b"patch" => Place::Patch,
+        b"time" | b"desk" => Place::Everywhere,
+        _ => Place::Stage,
+    };
     Shortcut {
+        place,
         modifiers,
         key,
         act,
@@ -134,10 +179,27 @@ const fn row(
     }
 }
 
+/// A row that holds wherever one is.
+const fn everywhere(row: Shortcut) -> Shortcut {
+    Shortcut {
+        place: Place::Everywhere,
+        ..row
+    }
+}
+
+/// A row that holds only while the figure is shown.
+const fn on_stage(row: Shortcut) -> Shortcut {
+    Shortcut {
+        place: Place::Stage,
+        ..row
+    }
+}
+
 /// Every key but Esc, the digits and F1–F12. Rows with more modifiers come before rows with fewer.
 #[rustfmt::skip] // A table: one row a line.
 pub const SHORTCUTS: &[Shortcut] = &[
-    row((NONE, Key::Space), Act::Toggle, "time", "Space", "play, pause"),
+    // The patch panel pans with the space bar held, and plays when it is let go.
+    on_stage(row((NONE, Key::Space), Act::Toggle, "time", "Space", "play, pause")),
     row((SHIFT, Key::ArrowLeft), Act::Frames(-10), "time", "Shift-Left, -Right", "ten frames"),
     row((SHIFT, Key::ArrowRight), Act::Frames(10), "time", "", ""),
     row((CTRL, Key::ArrowLeft), Act::MoveKey(-1), "keys", "Ctrl-Left, -Right", "move the key a frame"),
@@ -166,7 +228,8 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row((NONE, Key::M), Act::Mode, "kinetics", "M", "natural, monotone, linear"),
     row((CTRL_SHIFT, Key::Z), Act::Redo, "show", "Ctrl-Shift-Z", "redo"),
     row((CTRL, Key::Z), Act::Undo, "show", "Ctrl-Z", "undo"),
-    row((CTRL, Key::S), Act::Save, "show", "Ctrl-S", "save"),
+    everywhere(row((CTRL, Key::S), Act::Save, "show", "Ctrl-S", "save")),
+    everywhere(row((CTRL, Key::P), Act::Patch, "show", "Ctrl-P", "the patch panel, the figure")),
     row((SHIFT, Key::Comma), Act::Twist(-1.0), "pose", "Shift-, Shift-.", "twist the link"),
     row((SHIFT, Key::Period), Act::Twist(1.0), "pose", "", ""),
     row((NONE, Key::Comma), Act::Link(-1), "pose", ", .", "previous, next link"),
@@ -194,9 +257,22 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row((NONE, Key::F), Act::Follow, "puppet", "F", "follow the screen"),
     row((NONE, Key::H), Act::Hold, "puppet", "H", "hold"),
     row((NONE, Key::R), Act::Release, "puppet", "R", "release"),
-    row((SHIFT, Key::Questionmark), Act::Help, "show", "?", "this page"),
-    row((NONE, Key::Questionmark), Act::Help, "show", "", ""),
-    row((SHIFT, Key::Slash), Act::Help, "show", "", ""),
+    everywhere(row((SHIFT, Key::Questionmark), Act::Help, "show", "?", "this page")),
+    everywhere(row((NONE, Key::Questionmark), Act::Help, "show", "", "")),
+    everywhere(row((SHIFT, Key::Slash), Act::Help, "show", "", "")),
+    row((NONE, Key::Tab), Act::Add, "patch", "Tab", "add a function, by name"),
+    row((NONE, Key::F), Act::Frame, "patch", "F", "show the selection, or all"),
+    row((NONE, Key::Delete), Act::PatchDelete, "patch", "Delete", "delete the selection"),
+    row((NONE, Key::Backspace), Act::PatchDelete, "patch", "", ""),
+    row((CTRL, Key::D), Act::Duplicate, "patch", "Ctrl-D", "copy the selection"),
+    row((CTRL, Key::A), Act::SelectAll, "patch", "Ctrl-A", "select all"),
+    row((CTRL_SHIFT, Key::Z), Act::PatchRedo, "patch", "", ""),
+    row((CTRL, Key::Z), Act::PatchUndo, "patch", "", ""),
+    row((CTRL, Key::L), Act::LayOut, "patch", "Ctrl-L", "lay everything out"),
+    row((NONE, Key::G), Act::Fold, "patch", "G", "fold, unfold a structure"),
+    row((NONE, Key::P), Act::Probe, "patch", "P", "pin a read-out of the port"),
+    row((NONE, Key::X), Act::Freeze, "patch", "X", "hold the output back, let go"),
+    row((NONE, Key::T), Act::PatchText, "patch", "T", "the text beside the graph"),
 ];
 
 #[cfg(test)]
@@ -207,6 +283,10 @@ mod tests {
     fn no_key_means_two_things() {
         for (index, a) in SHORTCUTS.iter().enumerate() {
             for b in &SHORTCUTS[index + 1..] {
+                let apart = a.place != b.place && [a.place, b.place].iter().all(|p| *p != Place::Everywhere);
+                if apart {
+                    continue;
+                }
                 assert!((a.modifiers, a.key) != (b.modifiers, b.key), "{:?} twice", a.key);
                 // `consume_key` lets Shift through where a row does not ask for it.
                 let hidden = a.key == b.key && a.modifiers == NONE && b.modifiers.shift;

@@ -1,6 +1,7 @@
 //! Pictures, looked at once by a person and from then on by these tests.
 
 mod hands;
+mod patch;
 mod render;
 mod studio;
 mod walker;

@@ -48,14 +48,14 @@ pub(crate) fn harness(seen: Snapshot, size: [f32; 2], card: bool) -> Harness<'st
 }
 
 /// Says aloud that there is nothing to draw with.
-fn no_card() -> bool {
+pub(crate) fn no_card() -> bool {
     Headless::start()
         .inspect_err(|error| eprintln!("SKIPPED: {error}"))
         .is_err()
 }
 
 /// Leaves a picture where a person can look at it.
-fn keep(picture: &Picture, name: &str) {
+pub(crate) fn keep(picture: &Picture, name: &str) {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let file = std::fs::File::create(&path).expect("the folder is the tests' own");
     write_png(picture, file).expect("a picture is a PNG");
@@ -75,7 +75,7 @@ fn drawn(seen: Snapshot, size: [f32; 2], name: &str) -> Picture {
 }
 
 /// How many pixels are nearly `colour`.
-fn count(picture: &Picture, colour: theme::Rgb) -> usize {
+pub(crate) fn count(picture: &Picture, colour: theme::Rgb) -> usize {
     let near = |p: &[u8]| {
         [(p[0], colour.0), (p[1], colour.1), (p[2], colour.2)]
             .iter()

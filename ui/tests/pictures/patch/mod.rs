@@ -1,0 +1,139 @@
+//! The patch panel on a machine of its own: what hands on it do to the network, and what it looks like.
+
+mod hands;
+mod machine;
+mod networks;
+mod pictures;
+
+use egui::Rect;
+use egui_kittest::Harness;
+use ps300::language::Name;
+use ui::panels::layout::Areas;
+
+use crate::studio::{Bench, harness};
+use crate::walker;
+use machine::Link;
+
+/// The studio with its patch panel open, and the network at the other end.
+pub(crate) struct Room {
+    pub(crate) harness: Harness<'static, Bench>,
+    pub(crate) link: Link,
+    area: Rect,
+}
+
+impl Room {
+    pub(crate) fn new(link: Link, size: [f32; 2], card: bool) -> Room {
+        let mut harness = harness(walker::playing(), size, card);
+        harness.state_mut().studio.choices().patch = true;
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        let mut room = Room {
+            harness,
+            link,
+            area: Areas::of(window).patch(),
+        };
+        room.step();
+        room.step();
+        room
+    }
+
+    /// One picture: the network is seen, then what hands wanted is done.
+    pub(crate) fn step(&mut self) {
+        let look = self.link.look();
+        self.harness.state_mut().studio.see_network(Some(look));
+        self.harness.step();
+        for ask in self.harness.state_mut().studio.take_asks() {
+            self.link.ask(ask);
+        }
+    }
+
+    /// The dials turn and the network runs.
+    pub(crate) fn turn(&mut self, dials: &[(u8, f64)]) {
+        for &(dial, turns) in dials {
+            self.link.emit("DIALS", dial, turns);
+        }
+        self.link.tick();
+        self.step();
+    }
+
+    pub(crate) fn place(&mut self, name: &str) -> Rect {
+        let area = self.area;
+        let found = self
+            .harness
+            .state_mut()
+            .studio
+            .patch()
+            .place_of(area, &Name::new(name));
+        found.unwrap_or_else(|| panic!("{name} is not shown"))
+    }
+
+    pub(crate) fn output(&mut self, name: &str, port: usize) -> egui::Pos2 {
+        let area = self.area;
+        let found = self
+            .harness
+            .state_mut()
+            .studio
+            .patch()
+            .port_of(area, &Name::new(name), true, port);
+        found.unwrap_or_else(|| panic!("{name} is not shown"))
+    }
+
+    pub(crate) fn input(&mut self, name: &str, port: usize) -> egui::Pos2 {
+        let area = self.area;
+        let found = self
+            .harness
+            .state_mut()
+            .studio
+            .patch()
+            .port_of(area, &Name::new(name), false, port);
+        found.unwrap_or_else(|| panic!("{name} is not shown"))
+    }
+
+    /// Presses, moves and lets go.
+    pub(crate) fn drag(&mut self, from: egui::Pos2, to: egui::Pos2) {
+        self.hold(from, to);
+        self.harness.drop_at(to);
+        self.step();
+        self.step();
+    }
+
+    /// Presses and moves; the button stays down.
+    pub(crate) fn hold(&mut self, from: egui::Pos2, to: egui::Pos2) {
+        self.harness.hover_at(from);
+        self.step();
+        self.harness.drag_at(from);
+        self.step();
+        for part in 1..=6 {
+            self.harness.hover_at(from + (to - from) * (part as f32 / 6.0));
+            self.step();
+        }
+    }
+
+    pub(crate) fn click(&mut self, at: egui::Pos2) {
+        self.harness.hover_at(at);
+        self.step();
+        self.harness.drag_at(at);
+        self.harness.drop_at(at);
+        self.step();
+    }
+
+    pub(crate) fn click_twice(&mut self, at: egui::Pos2) {
+        self.click(at);
+        self.click(at);
+    }
+
+    pub(crate) fn press(&mut self, modifiers: egui::Modifiers, key: egui::Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.step();
+        self.step();
+    }
+
+    /// Types into whatever has the keyboard.
+    pub(crate) fn write(&mut self, text: &str) {
+        self.harness.event(egui::Event::Text(text.to_owned()));
+        self.step();
+    }
+
+    pub(crate) fn area(&self) -> Rect {
+        self.area
+    }
+}
