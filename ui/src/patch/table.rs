@@ -73,7 +73,8 @@ impl Table {
             .filter(|shown| !self.spots.contains_key(&shown.name))
             .count();
         let anew = std::mem::take(&mut self.anew);
-        if anew || unknown > EDIT_MAX && unknown * 3 > scene.boxes.len() {
+        let first = self.scene.boxes.is_empty() && unknown == scene.boxes.len();
+        if anew || first || unknown > EDIT_MAX && unknown * 3 > scene.boxes.len() {
             return self.arrange(scene, anew);
         }
         let mut at: Vec<Option<Vec2>> = scene

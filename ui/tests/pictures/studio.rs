@@ -24,6 +24,8 @@ pub(crate) struct Bench {
 pub(crate) fn harness(seen: Snapshot, size: [f32; 2], card: bool) -> Harness<'static, Bench> {
     let mut builder = Harness::builder()
         .with_size(size)
+        // A screen's own pace: two clicks of a hand come within a few pictures.
+        .with_step_dt(1.0 / 60.0)
         .with_context_setup(style::apply);
     if card {
         let state = egui_kittest::wgpu::create_render_state(

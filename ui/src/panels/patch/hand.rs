@@ -174,11 +174,8 @@ fn begin(ui: &Ui, at: Vec2, view: &View, reach: &mut Reach<'_>) -> Gesture {
                 .choose_boxes(scene, frame.map_or(&[][..], |frame| &frame.members), more);
             Gesture::Move
         }
-        Some(Hit::Wire(wire)) => {
-            reach.selection.choose_wire(scene, wire, more);
-            Gesture::Idle
-        }
-        None => {
+        // A click takes a wire; a band may begin anywhere between boxes.
+        Some(Hit::Wire(_)) | None => {
             if !more {
                 reach.selection.clear();
             }

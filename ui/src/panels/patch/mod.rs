@@ -53,7 +53,8 @@ const TEXT_WIDTHS: [f32; 2] = [300.0, 520.0];
 pub struct Patch {
     table: Table,
     camera: Camera,
-    framed: bool,
+    /// The camera and the size of the view as framing left them; a hand on the camera ends that.
+    framed: Option<(Camera, Vec2)>,
     traffic: Traffic,
     gesture: Gesture,
     selection: Selection,
@@ -191,7 +192,10 @@ impl Patch {
             self.gesture = Gesture::Idle;
             self.selection.find(&self.table.scene);
         }
-        if change == Change::Arranged || !self.framed {
+        let size = Vec2::new(area.width(), area.height());
+        // What was framed stays framed when the text opens or the window grows.
+        let outgrown = self.framed.is_some_and(|(camera, view)| camera == self.camera && view != size);
+        if change == Change::Arranged || outgrown || self.framed.is_none() {
             self.frame(area);
         }
         self.traffic.see(look.picture.revision, &look.activity, now_secs);
@@ -206,10 +210,12 @@ impl Patch {
             .iter()
             .filter_map(|&node| self.table.seating.areas.get(node).copied());
         let whole = chosen.reduce(Area::union).or_else(|| self.table.seating.extent());
+        let view = Vec2::new(area.width(), area.height());
         if let Some(whole) = whole {
-            self.camera.frame(whole, Vec2::new(area.width(), area.height()));
-            self.framed = true;
+            self.camera.frame(whole, view);
         }
+        // An empty table is framed too: its first box stays under the hand that puts it there.
+        self.framed = Some((self.camera, view));
     }
 
     /// The cursor in the text is on a name: its box is meant.

@@ -104,16 +104,17 @@ pub(super) fn rows(painter: &Painter, view: &View, table: &Table, node: usize, l
     let shown = &table.scene.boxes[node];
     let rect = view.rect(table.seating.areas[node]);
     let dimmed = looks.offer.is_some_and(|offer| !offer.any(node));
-    // An input and an output on one row share its width; alone, either has all of it.
-    let width = |beside: bool| (rect.width() - view.length(28.0)) * if beside { 0.5 } else { 1.0 };
+    // What an input says is short or may be cut at two thirds; the output beside it has the rest.
+    let whole = rect.width() - view.length(28.0);
+    let mut used = Vec::with_capacity(shown.inputs.len());
     for (port, input) in shown.inputs.iter().enumerate() {
         let at = view.screen(table.seating.input(&table.scene, node, port));
         let activity = input.activity.and_then(|at| looks.look.activity.inputs.get(at));
         let colour = offered(looks, true, node, port, colour::of_port(input.kinds));
         let lit = looks.offer.is_some_and(|offer| offer.fits(true, node, port));
         mark(painter, view, at, colour, input.constant, lit);
-        let room = width(shown.outputs.len() > port);
-        input_row(painter, view, at, room, input, activity, dimmed);
+        let room = if shown.outputs.len() > port { whole * 0.66 } else { whole };
+        used.push(input_row(painter, view, at, room, input, activity, dimmed));
     }
     for (port, output) in shown.outputs.iter().enumerate() {
         let at = view.screen(table.seating.output(&table.scene, node, port));
@@ -121,7 +122,7 @@ pub(super) fn rows(painter: &Painter, view: &View, table: &Table, node: usize, l
         let colour = offered(looks, false, node, port, colour::of_port(output.kinds));
         let lit = looks.offer.is_some_and(|offer| offer.fits(false, node, port));
         mark(painter, view, at, colour, false, lit);
-        let room = width(shown.inputs.len() > port);
+        let room = whole - used.get(port).copied().unwrap_or(0.0);
         output_row(painter, view, at, room, output, activity, dimmed);
     }
 }
@@ -140,6 +141,7 @@ fn mark(painter: &Painter, view: &View, at: Pos2, colour: Rgb, constant: bool, l
     }
 }
 
+/// Returns the width it took.
 fn input_row(
     painter: &Painter,
     view: &View,
@@ -148,15 +150,16 @@ fn input_row(
     port: &Port,
     activity: Option<&InputActivity>,
     dimmed: bool,
-) {
+) -> f32 {
     let small = font(view, theme::SIZE_SMALL);
     let left = at.x + view.length(12.0);
     let label = style::layout(painter, (&port.label, small.clone()), theme::FAINT, room);
     let value_at = left + label.size().x + view.length(7.0);
     let rest = (room - label.size().x - view.length(7.0)).max(0.0);
     painter.galley(pos2(left, at.y - label.size().y / 2.0), label, ink(theme::FAINT));
+    let mut used = value_at - left;
     let Some(activity) = activity else {
-        return;
+        return used;
     };
     if let Some(value) = &activity.front {
         let colour = match (dimmed, port.constant) {
@@ -165,19 +168,14 @@ fn input_row(
             (false, true) => theme::TEXT,
             (false, false) => theme::DIM,
         };
-        let text = (token::short(value), small);
-        style::line(
-            painter,
-            pos2(value_at, at.y),
-            Align2::LEFT_CENTER,
-            (&text.0, text.1),
-            colour,
-            rest,
-        );
+        let galley = style::layout(painter, (&token::short(value), small), colour, rest);
+        used += galley.size().x + view.length(6.0);
+        painter.galley(pos2(value_at, at.y - galley.size().y / 2.0), galley, ink(colour));
     }
     if activity.waiting > 0 && !port.constant {
         queue(painter, view, at, activity.waiting);
     }
+    used
 }
 
 /// How many messages wait: a number before the port, over a bar that grows with it.

@@ -10,6 +10,9 @@ use crate::patch::scene::{Part, Port, Shown};
 use crate::patch::token;
 use crate::render::theme::{self, Rgb};
 
+/// Different reports of a box that are told.
+const REPORTS: usize = 4;
+
 fn at_pointer(ctx: &Context, at: Pos2, contents: impl FnOnce(&mut Ui)) {
     let room = ctx.content_rect();
     let pivot = match (at.x > room.right() - 340.0, at.y > room.bottom() - 160.0) {
@@ -111,8 +114,12 @@ pub(super) fn reports(ctx: &Context, at: Pos2, shown: &Shown, look: &Look) {
             format!("{count} times")
         };
         small(ui, format!("went wrong {times}"), theme::FAULTED);
-        for (_, words) in look.reports.iter().filter(|(index, _)| inside(*index)).take(6) {
-            small(ui, words.clone(), theme::TEXT);
+        let mut told: Vec<&str> = Vec::new();
+        for (_, words) in look.reports.iter().rev().filter(|(index, _)| inside(*index)) {
+            if !told.contains(&words.as_str()) && told.len() < REPORTS {
+                told.push(words);
+                small(ui, words.clone(), theme::TEXT);
+            }
         }
     });
 }

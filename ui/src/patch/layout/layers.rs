@@ -3,9 +3,9 @@
 use super::Graph;
 
 /// Columns whose boxes need more height than this share of the square root of all area are divided.
-const TALL: f32 = 1.6;
+const TALL: f32 = 0.9;
 /// Nor are columns below this height ever divided, points.
-const TALL_MIN: f32 = 1600.0;
+const TALL_MIN: f32 = 1200.0;
 /// In deeper networks what is driven stays near what drives it.
 const DEEP: usize = 14;
 

@@ -128,10 +128,8 @@ fn a_literal_that_does_not_fit_is_refused_where_it_is_typed() {
 #[test]
 fn copies_keep_constants_and_inner_wires() {
     let mut room = room(DIALS);
-    let from = room.place("tx").left_top();
-    let to = room.place("tr").right_bottom();
-    let top = room.place("tx").left_top().min(room.place("tr").left_top());
-    room.drag(top - vec2(12.0, 12.0), to.max(from) + vec2(12.0, 6.0));
+    let (from, to) = (room.place("tx").left_top(), room.place("tr").right_bottom());
+    room.drag(from - vec2(20.0, 6.0), to.max(from) + vec2(12.0, 6.0));
     room.press(Modifiers::COMMAND, Key::D);
     let text = room.link.text();
     for line in ["tr2 := F:ACCUMULATE;", "SEND 100 TO <4>tr2;"] {

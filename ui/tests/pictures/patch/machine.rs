@@ -122,7 +122,7 @@ impl Link {
     /// What the panel is told now.
     pub(crate) fn look(&mut self) -> Look {
         let text = self.text();
-        if text != self.shape || self.picture.boxes.is_empty() {
+        if text != self.shape {
             self.picture = Arc::new(self.painted());
             self.shape.clone_from(&text);
         }

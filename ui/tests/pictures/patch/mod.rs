@@ -117,6 +117,10 @@ impl Room {
     }
 
     pub(crate) fn click_twice(&mut self, at: egui::Pos2) {
+        // Long enough after the last click to be no third one.
+        for _ in 0..30 {
+            self.step();
+        }
         self.click(at);
         self.click(at);
     }

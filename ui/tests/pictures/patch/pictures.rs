@@ -43,6 +43,7 @@ fn the_dial_network() {
     let picture = drawn(&mut room, "dials");
     assert_eq!(count(&picture, theme::FAULTED), 0, "red where nothing is faulted");
     room.harness.state_mut().studio.patch().show_text(true);
+    room.step();
     let output = room.output("tr", 0);
     room.harness.hover_at(output);
     room.step();
