@@ -12,7 +12,7 @@ use crate::panels::layout::Areas;
 use crate::panels::patch::Patch;
 use crate::panels::{Choices, Commands, Panel, canvas, help, keyboard, style};
 use crate::panels::{desk, devices, header, keys, puppet, transport, view};
-use crate::patch::look::{Ask, Look};
+use crate::patch::look::Look;
 use crate::render::theme;
 use crate::watch::Watch;
 
@@ -59,8 +59,8 @@ pub struct Studio {
     choices: Choices,
     queue: Vec<Command>,
     patch: Patch,
-    network: Option<Look>,
-    asks: Vec<Ask>,
+    /// Whether the rig was asked to show the network.
+    looking: bool,
 }
 
 /// Panels whose place the patch panel takes.
@@ -93,19 +93,8 @@ impl Studio {
             choices: Choices::default(),
             queue: Vec::new(),
             patch: Patch::default(),
-            network: None,
-            asks: Vec::new(),
+            looking: false,
         }
-    }
-
-    /// The network as the patch panel is to show it.
-    pub fn see_network(&mut self, look: Option<Look>) {
-        self.network = look;
-    }
-
-    /// What hands on the patch panel wanted since the last call, in order.
-    pub fn take_asks(&mut self) -> Vec<Ask> {
-        std::mem::take(&mut self.asks)
     }
 
     /// The patch panel.
@@ -134,13 +123,20 @@ impl Studio {
                 panel.ui(ui, seen, &mut commands);
             });
         }
+        if patching != self.looking {
+            self.looking = patching;
+            commands.push(Command::LookAtNetwork(patching));
+        }
         if patching {
+            let look = Look::of(seen);
             let builder = UiBuilder::new().max_rect(areas.patch()).id_salt("patch");
             let asked = ui.scope_builder(builder, |ui| {
                 ui.set_clip_rect(areas.patch().intersect(window));
-                self.patch.ui(ui, self.network.as_ref())
+                self.patch.ui(ui, look.as_ref())
             });
-            self.asks.extend(asked.inner.asks);
+            for edit in asked.inner.edits {
+                commands.push(Command::Network(edit));
+            }
             if asked.inner.play {
                 commands.push(Command::Transport(TransportCommand::Toggle));
             }

@@ -10,7 +10,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use glam::DVec3;
-use rig::{FigureView, NoteLevel, PuppetView, Snapshot};
+use rig::{FigureView, NetworkLook, NoteLevel, PuppetView, Snapshot};
 
 use crate::panels::{joints, view};
 use crate::studio::Session;
@@ -104,6 +104,9 @@ pub(crate) fn fingerprint(seen: &Snapshot) -> u64 {
             .hash(h);
     }
     hash_desk(seen, h);
+    if let Some(network) = &seen.network {
+        hash_network(network, h);
+    }
     if let Some(puppet) = &seen.puppet {
         hash_puppet(puppet, h);
     }
@@ -139,6 +142,21 @@ fn hash_desk(seen: &Snapshot, h: &mut DefaultHasher) {
     }
     for device in &seen.devices {
         (&device.name, device.health as u8, device.events).hash(h);
+    }
+}
+
+/// What the patch panel shows that moves; a picture and a text are never changed, only replaced.
+fn hash_network(network: &NetworkLook, h: &mut DefaultHasher) {
+    (network.picture.revision, network.can_undo, network.can_redo).hash(h);
+    Arc::as_ptr(&network.text).addr().hash(h);
+    network.diagnostics.len().hash(h);
+    let activity = &network.activity;
+    activity.reports.hash(h);
+    for output in &activity.outputs {
+        (output.sent, output.frozen, output.withheld).hash(h);
+    }
+    for input in &activity.inputs {
+        (input.waiting, input.is_set).hash(h);
     }
 }
 

@@ -126,6 +126,7 @@ pub enum Place {
 }
 
 /// One row of the table.
+#[derive(Clone, Copy)]
 pub struct Shortcut {
     /// Where it holds.
     pub place: Place,

@@ -1,7 +1,7 @@
 //! What can be added to a network: every intrinsic function, a variable, and whatever is there but not wired yet.
 
 use ps300::intrinsic::{self, Spec};
-use ps300::language::Name;
+use ps300::language::{Input, Name};
 use ps300::{Kind, Kinds};
 
 use super::look::{Picture, Role};
@@ -71,21 +71,32 @@ pub fn entries(picture: &Picture) -> Vec<Entry> {
         inputs: vec![Kinds::ANY],
         outputs: vec![Kinds::ANY],
     };
-    let guests = picture.others.iter().map(|other| Entry {
+    let guests = picture.unwired.iter().map(|other| Entry {
         title: other.name.to_string(),
         adds: Adds::Guest(other.name.clone()),
         behaviour: match other.role {
             Role::Device => String::from("Device."),
-            Role::Parameter => other
-                .labels
-                .first()
-                .map_or_else(|| String::from("Parameter."), ToString::to_string),
+            Role::Parameter => {
+                let first = meaning(other.name.as_str(), Input::Number(1));
+                format!("Parameter: {}.", first.unwrap_or("of the host"))
+            }
             _ => format!("Display node, {}.", other.what),
         },
         inputs: other.inputs.iter().map(|port| port.kinds).collect(),
         outputs: other.outputs.iter().map(|port| port.kinds).collect(),
     });
     functions.chain([variable]).chain(guests).collect()
+}
+
+/// What an inlet of a parameter does.
+pub fn meaning(name: &str, input: Input) -> Option<&'static str> {
+    let Input::Number(number) = input else {
+        return None;
+    };
+    let mut parameters = rig::parameters::PARAMETERS.iter();
+    let known = parameters.find(|parameter| parameter.name.eq_ignore_ascii_case(name))?;
+    let inlet = known.inlets.get(usize::from(number).checked_sub(1)?)?;
+    Some(inlet.meaning)
 }
 
 /// What an added box must be able to do.

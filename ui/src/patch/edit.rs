@@ -117,6 +117,9 @@ pub fn ends(scene: &Scene, wire: usize) -> (&Port, &Port) {
     )
 }
 
+/// Nobody makes more of one function by hand.
+const MADE_MAX: u32 = 100_000;
+
 /// A name nothing bears yet and that reads back as a name.
 pub fn fresh_name(wanted: &str, look: &Look, also: &BTreeSet<Name>) -> Name {
     let wanted = wanted.to_lowercase();
@@ -126,14 +129,14 @@ pub fn fresh_name(wanted: &str, look: &Look, also: &BTreeSet<Name>) -> Name {
         "f"
     };
     let known = |name: &Name| {
-        let boxes = look.picture.boxes.iter().chain(&look.picture.others);
+        let boxes = look.picture.boxes.iter().chain(&look.picture.unwired);
         boxes
             .flat_map(|b| [Some(&b.name), b.structure.as_ref()])
             .flatten()
             .any(|taken| taken == name)
             || also.contains(name)
     };
-    (1..)
+    (1..=MADE_MAX)
         .map(|number: u32| {
             Name::new(&if number == 1 {
                 base.to_owned()

@@ -7,7 +7,7 @@ use glam::Vec2;
 use ps300::Kinds;
 use ps300::language::{Input, Name};
 
-use super::look::{BoxPicture, Picture, Role, Wire};
+use super::look::{BoxPicture, Picture, PortPicture, Role, Wire};
 use super::size;
 
 /// All that can be seen.
@@ -31,8 +31,6 @@ pub struct Shown {
     pub role: Role,
     /// Its type.
     pub what: Arc<str>,
-    /// Lines under the name.
-    pub labels: Vec<Arc<str>>,
     /// What the picture calls it.
     pub part: Part,
     /// In order.
@@ -102,7 +100,11 @@ impl Scene {
         for shown in &mut scene.boxes {
             shown.size = shown.measured();
         }
-        for guest in picture.others.iter().filter(|other| guests.contains(&other.name)) {
+        for guest in picture
+            .unwired
+            .iter()
+            .filter(|other| guests.contains(&other.name))
+        {
             let shown = Shown::of(guest, Part::Guest, None);
             scene.add(shown);
         }
@@ -128,7 +130,6 @@ impl Scene {
 
     /// Where each box of the picture is shown.
     fn take_boxes(&mut self, picture: &Picture, folded: &BTreeSet<Name>) -> Vec<usize> {
-        let (mut inputs, mut outputs) = (0, 0);
         let mut places = Vec::with_capacity(picture.boxes.len());
         for (index, seen) in picture.boxes.iter().enumerate() {
             let around = seen.structure.as_ref().filter(|around| folded.contains(around));
@@ -140,11 +141,13 @@ impl Scene {
                 }
                 place
             } else {
-                self.add(Shown::of(seen, Part::Box(index), Some((inputs, outputs))))
+                self.add(Shown::of(
+                    seen,
+                    Part::Box(index),
+                    Some((seen.first_input, seen.first_output)),
+                ))
             };
             places.push(place);
-            inputs += seen.inputs.len();
-            outputs += seen.outputs.len();
         }
         places
     }
@@ -172,12 +175,6 @@ impl Scene {
         let number = Input::Number(wire.output.into());
         let seen = picture.boxes.get(wire.from_box)?;
         let port = seen.outputs.get(usize::from(wire.output).checked_sub(1)?)?;
-        let before = || -> usize {
-            picture.boxes[..wire.from_box]
-                .iter()
-                .map(|b| b.outputs.len())
-                .sum()
-        };
         let shown = &mut self.boxes[place];
         let found = shown
             .outputs
@@ -186,7 +183,11 @@ impl Scene {
         if found.is_some() || !matches!(shown.part, Part::Folded(_)) {
             return found;
         }
-        let mut made = Port::of(&seen.name, port, Some(before() + usize::from(wire.output) - 1));
+        let mut made = Port::of(
+            &seen.name,
+            port,
+            Some(seen.first_output + usize::from(wire.output) - 1),
+        );
         made.input = number;
         made.label = member_label(&seen.name, number);
         shown.outputs.push(made);
@@ -196,7 +197,6 @@ impl Scene {
     fn input(&mut self, picture: &Picture, place: usize, wire: &Wire) -> Option<usize> {
         let seen = picture.boxes.get(wire.to_box)?;
         let at = seen.inputs.iter().position(|port| port.input == wire.input)?;
-        let before = || -> usize { picture.boxes[..wire.to_box].iter().map(|b| b.inputs.len()).sum() };
         let shown = &mut self.boxes[place];
         let found = shown
             .inputs
@@ -205,7 +205,7 @@ impl Scene {
         if found.is_some() || !matches!(shown.part, Part::Folded(_)) {
             return found;
         }
-        let mut made = Port::of(&seen.name, &seen.inputs[at], Some(before() + at));
+        let mut made = Port::of(&seen.name, &seen.inputs[at], Some(seen.first_input + at));
         made.label = member_label(&seen.name, wire.input);
         shown.inputs.push(made);
         Some(shown.inputs.len() - 1)
@@ -219,7 +219,7 @@ impl Scene {
 
 impl Shown {
     fn of(seen: &BoxPicture, part: Part, activity: Option<(usize, usize)>) -> Shown {
-        let ports = |ports: &[super::look::PortPicture], base: Option<usize>| {
+        let ports = |ports: &[PortPicture], base: Option<usize>| {
             let one = |(index, port)| Port::of(&seen.name, port, base.map(|base| base + index));
             ports.iter().enumerate().map(one).collect::<Vec<_>>()
         };
@@ -227,7 +227,6 @@ impl Shown {
             name: seen.name.clone(),
             role: seen.role,
             what: seen.what.clone(),
-            labels: seen.labels.clone(),
             part,
             inputs: ports(&seen.inputs, activity.map(|a| a.0)),
             outputs: ports(&seen.outputs, activity.map(|a| a.1)),
@@ -243,7 +242,6 @@ impl Shown {
             name: name.clone(),
             role: Role::Node,
             what: "structure".into(),
-            labels: Vec::new(),
             part: Part::Folded(Vec::new()),
             inputs: Vec::new(),
             outputs: Vec::new(),
@@ -256,7 +254,6 @@ impl Shown {
         size::of(
             self.title(),
             self.kind_word(),
-            self.labels.len(),
             self.inputs.len(),
             self.outputs.len(),
         )
@@ -264,7 +261,7 @@ impl Shown {
 
     /// Height of a port's middle below the box's top.
     pub fn port_y(&self, index: usize) -> f32 {
-        size::port(self.labels.len(), index)
+        size::port(index)
     }
 
     /// The name as shown: inside the frame of its structure without the structure's name.
@@ -283,7 +280,7 @@ impl Shown {
 }
 
 impl Port {
-    fn of(name: &Name, port: &super::look::PortPicture, activity: Option<usize>) -> Port {
+    fn of(name: &Name, port: &PortPicture, activity: Option<usize>) -> Port {
         Port {
             of: name.clone(),
             input: port.input,

@@ -5,8 +5,6 @@ use glam::Vec2;
 
 /// Height of the line with name and type, points at zoom 1.
 pub const HEAD: f32 = 26.0;
-/// Height of a label line.
-pub const LABEL: f32 = 15.0;
 /// Height of a port's row.
 pub const ROW: f32 = 18.0;
 /// Below the last row, and above the first.
@@ -19,18 +17,15 @@ pub const SMALL_CHARACTER: f32 = 6.7;
 const WIDTHS: [f32; 2] = [160.0, 296.0];
 
 /// Width and height of a box.
-pub fn of(name: &str, what: &str, labels: usize, inputs: usize, outputs: usize) -> Vec2 {
+pub fn of(name: &str, what: &str, inputs: usize, outputs: usize) -> Vec2 {
     let head = name.chars().count() as f32 * NAME_CHARACTER + what.chars().count() as f32 * SMALL_CHARACTER;
     let width = ((head + 44.0) / 8.0).ceil() * 8.0;
     let rows = inputs.max(outputs) as f32;
     let under = if rows > 0.0 { rows * ROW + 2.0 * PAD } else { 0.0 };
-    Vec2::new(
-        width.clamp(WIDTHS[0], WIDTHS[1]),
-        HEAD + labels as f32 * LABEL + under,
-    )
+    Vec2::new(width.clamp(WIDTHS[0], WIDTHS[1]), HEAD + under)
 }
 
 /// Height of a port's middle below the top of its box; ports count from 0.
-pub fn port(labels: usize, index: usize) -> f32 {
-    HEAD + labels as f32 * LABEL + PAD + (index as f32 + 0.5) * ROW
+pub fn port(index: usize) -> f32 {
+    HEAD + PAD + (index as f32 + 0.5) * ROW
 }

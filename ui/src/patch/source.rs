@@ -66,7 +66,7 @@ pub fn check(text: &str, picture: &Picture) -> Vec<Diagnostic> {
     let parameters = picture
         .boxes
         .iter()
-        .chain(&picture.others)
+        .chain(&picture.unwired)
         .filter(|b| b.role == Role::Parameter);
     for parameter in parameters {
         let kinds: Vec<ps300::Kinds> = parameter.inputs.iter().map(|input| input.kinds).collect();

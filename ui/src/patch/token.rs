@@ -34,7 +34,7 @@ pub fn number(x: f64) -> String {
     let size = x.abs();
     let text = match size {
         _ if x == x.trunc() && size < 1e6 => return format!("{x:.0}"),
-        _ if size >= 1e6 || size < 1e-3 => return format!("{x:.1e}"),
+        _ if !(1e-3..1e6).contains(&size) => return format!("{x:.1e}"),
         _ if size >= 100.0 => format!("{x:.1}"),
         _ if size >= 1.0 => format!("{x:.2}"),
         _ => format!("{x:.3}"),

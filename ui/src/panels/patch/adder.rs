@@ -215,7 +215,7 @@ impl Adder {
             return Found::Open;
         };
         if let Adds::Guest(name) = &entry.adds {
-            let Some(other) = look.picture.others.iter().find(|other| other.name == *name) else {
+            let Some(other) = look.picture.unwired.iter().find(|other| other.name == *name) else {
                 return Found::Closed;
             };
             let ends = match &self.tie {
@@ -313,7 +313,10 @@ fn paint_row(ui: &Ui, rect: Rect, entry: &Entry, chosen: bool, hovered: bool) {
     }
     let (tip, tail) = (pos2(x + 2.0, rect.top() + 11.0), pos2(x - 5.0, rect.top() + 11.0));
     painter.line_segment([tail, tip], style::hair(theme::FAINT));
-    painter.line(vec![tip + vec2(-3.0, -3.0), tip, tip + vec2(-3.0, 3.0)], style::hair(theme::FAINT));
+    painter.line(
+        vec![tip + vec2(-3.0, -3.0), tip, tip + vec2(-3.0, 3.0)],
+        style::hair(theme::FAINT),
+    );
     x -= 13.0;
     for colour in dots(&entry.inputs) {
         painter.circle_filled(pos2(x, rect.top() + 11.0), 3.5, ink(colour));

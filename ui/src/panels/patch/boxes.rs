@@ -164,19 +164,6 @@ fn head(painter: &Painter, view: &View, rect: Rect, shown: &Shown) {
         theme::TEXT,
         width,
     );
-    for (index, label) in shown.labels.iter().enumerate() {
-        let y = rect.top() + view.length(size::HEAD + (index as f32 + 0.5) * size::LABEL);
-        let text = (&**label, font(view, theme::SIZE_SMALL));
-        let width = rect.width() - 2.0 * pad;
-        style::line(
-            painter,
-            pos2(rect.left() + pad, y),
-            Align2::LEFT_CENTER,
-            text,
-            theme::DIM,
-            width,
-        );
-    }
 }
 
 /// Digits' type at this zoom, in whole points: every size more is a set of letters more.

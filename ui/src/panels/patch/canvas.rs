@@ -214,7 +214,7 @@ impl Patch {
         match &self.hovered {
             Some(Hit::Input(node, port)) => tip::input(ui.ctx(), at, &scene.boxes[*node].inputs[*port], look),
             Some(Hit::Output(node, port)) => {
-                tip::output(ui.ctx(), at, &scene.boxes[*node].outputs[*port], look)
+                tip::output(ui.ctx(), at, &scene.boxes[*node].outputs[*port], look);
             }
             _ => {}
         }

@@ -1,7 +1,7 @@
 //! The patch panel: the function network as boxes and wires, live, to be rewired while it runs.
 //!
 //! What is shown where is decided in [`crate::patch`], without egui; here it is painted and hands are read.
-//! What hands want leaves as [`Ask`]s, command-language text each of which is one step of undo.
+//! What hands want leaves as [`NetworkEdit`]s, command-language text each of which is one step of undo.
 //! Start at [`Patch::ui`].
 
 mod adder;
@@ -38,7 +38,7 @@ use crate::patch::area::Area;
 use crate::patch::camera::Camera;
 use crate::patch::catalogue::Want;
 use crate::patch::hit::Hit;
-use crate::patch::look::{Ask, Look};
+use crate::patch::look::{Look, NetworkEdit};
 use crate::patch::table::{Change, Table};
 use crate::patch::traffic::Traffic;
 use crate::patch::{duplicate, edit};
@@ -71,7 +71,7 @@ pub struct Patch {
 #[derive(Default)]
 pub struct Asked {
     /// Of the network, in order.
-    pub asks: Vec<Ask>,
+    pub edits: Vec<NetworkEdit>,
     /// Play or pause: the space bar was let go without having moved anything.
     pub play: bool,
 }
@@ -160,7 +160,7 @@ impl Patch {
         self.see(look, area, now_secs);
         if let Some(rect) = text {
             match self.text.show(ui, rect, look) {
-                Some(Wish::Apply(program)) => asked.asks.push(Ask::Program(program)),
+                Some(Wish::Apply(program)) => asked.edits.push(NetworkEdit::Program(program)),
                 Some(Wish::Point(name)) => self.point(&name),
                 None => {}
             }
@@ -194,7 +194,9 @@ impl Patch {
         }
         let size = Vec2::new(area.width(), area.height());
         // What was framed stays framed when the text opens or the window grows.
-        let outgrown = self.framed.is_some_and(|(camera, view)| camera == self.camera && view != size);
+        let outgrown = self
+            .framed
+            .is_some_and(|(camera, view)| camera == self.camera && view != size);
         if change == Change::Arranged || outgrown || self.framed.is_none() {
             self.frame(area);
         }
@@ -259,7 +261,7 @@ impl Patch {
                 Found::Commands(text, name) => {
                     self.table.expect(name.clone(), at);
                     self.selection.expect([name]);
-                    asked.asks.push(Ask::Commands(text));
+                    asked.edits.push(NetworkEdit::Commands(text));
                 }
                 Found::Guest(name) => {
                     self.table.add_guest(name.clone(), at);
@@ -276,7 +278,7 @@ impl Patch {
             match literal.show(ui.ctx(), &view) {
                 Typed::Open => return,
                 Typed::Closed => {}
-                Typed::Commands(text) => asked.asks.push(Ask::Commands(text)),
+                Typed::Commands(text) => asked.edits.push(NetworkEdit::Commands(text)),
             }
             self.literal = None;
         }
@@ -284,7 +286,7 @@ impl Patch {
 
     fn done(&mut self, done: Done, ui: &Ui, area: Rect, look: &Look, asked: &mut Asked) {
         match done {
-            Done::Commands(text) => asked.asks.push(Ask::Commands(text)),
+            Done::Commands(text) => asked.edits.push(NetworkEdit::Commands(text)),
             Done::Wanted(want, tie, before) => self.open_adder(ui, area, look, want, tie, before),
             Done::Literal(node, port) => {
                 let input = &self.table.scene.boxes[node].inputs[port];
@@ -305,7 +307,7 @@ impl Patch {
         let corner = pointer.unwrap_or_else(|| pos2(area.center().x - 210.0, area.top() + 60.0));
         let view = self.view(area);
         // The box's first port comes under the pointer, roughly.
-        let at = view.plane(corner) - Vec2::new(0.0, crate::patch::size::port(0, 0));
+        let at = view.plane(corner) - Vec2::new(0.0, crate::patch::size::port(0));
         self.adder = Some(Adder::new(look, at, corner, want, tie, before));
         self.literal = None;
     }
@@ -314,8 +316,8 @@ impl Patch {
         match act {
             Act::Add => self.open_adder(ui, area, look, Want::Any, Tie::None, String::new()),
             Act::Frame => self.frame(area),
-            Act::PatchUndo => asked.asks.push(Ask::Undo),
-            Act::PatchRedo => asked.asks.push(Ask::Redo),
+            Act::PatchUndo => asked.edits.push(NetworkEdit::Undo),
+            Act::PatchRedo => asked.edits.push(NetworkEdit::Redo),
             Act::LayOut => self.table.lay_out(),
             Act::PatchText => self.text.open = !self.text.open,
             Act::SelectAll => {
@@ -329,8 +331,10 @@ impl Patch {
                     .map(|&node| self.table.scene.boxes[node].name.clone())
                     .collect();
                 let text = edit::delete(&self.table.scene, chosen, &self.selection.wires);
-                asked.asks.extend(text.map(Ask::Commands));
-                guests.iter().for_each(|guest| self.table.remove_guest(guest));
+                asked.edits.extend(text.map(NetworkEdit::Commands));
+                for guest in &guests {
+                    self.table.remove_guest(guest);
+                }
                 self.selection.clear();
             }
             Act::Duplicate => self.duplicate(look, asked),
@@ -356,7 +360,7 @@ impl Patch {
             }
         }
         self.selection.expect(copies.into_values());
-        asked.asks.push(Ask::Commands(text));
+        asked.edits.push(NetworkEdit::Commands(text));
     }
 
     fn fold_under_pointer(&mut self) {
@@ -393,8 +397,8 @@ impl Patch {
             .activity
             .and_then(|at| look.activity.outputs.get(at))
             .is_some_and(|o| o.frozen);
-        asked.asks.push(Ask::Freeze {
-            name: output.of.clone(),
+        asked.edits.push(NetworkEdit::Freeze {
+            name: output.of.to_string(),
             output: edit::output_number(output),
             on: !frozen,
         });

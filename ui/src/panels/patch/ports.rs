@@ -113,7 +113,11 @@ pub(super) fn rows(painter: &Painter, view: &View, table: &Table, node: usize, l
         let colour = offered(looks, true, node, port, colour::of_port(input.kinds));
         let lit = looks.offer.is_some_and(|offer| offer.fits(true, node, port));
         mark(painter, view, at, colour, input.constant, lit);
-        let room = if shown.outputs.len() > port { whole * 0.66 } else { whole };
+        let room = if shown.outputs.len() > port {
+            whole * 0.66
+        } else {
+            whole
+        };
         used.push(input_row(painter, view, at, room, input, activity, dimmed));
     }
     for (port, output) in shown.outputs.iter().enumerate() {

@@ -218,7 +218,7 @@ impl Text {
             style::line(ui.painter(), rect.min, egui::Align2::LEFT_TOP, text, colour, 60.0);
             let mut words = remark.to_string();
             if let Some((_, rest)) = words.split_once(": ") {
-                words = rest.to_owned();
+                words = String::from(rest);
             }
             let mut job = LayoutJob::simple(
                 words,

@@ -4,10 +4,10 @@ use egui::{Area, Context, Id, Order, Pos2, RichText, Ui, vec2};
 
 use super::{boxes, pop};
 use crate::panels::style::{self, ink};
-use crate::patch::fit;
 use crate::patch::look::Look;
 use crate::patch::scene::{Part, Port, Shown};
 use crate::patch::token;
+use crate::patch::{catalogue, fit};
 use crate::render::theme::{self, Rgb};
 
 /// Different reports of a box that are told.
@@ -62,6 +62,9 @@ pub(super) fn input(ctx: &Context, at: Pos2, port: &Port, look: &Look) {
         code(ui, fit::input_text(port), theme::TEXT);
         let keeps = if port.constant { "; keeps its message" } else { "" };
         small(ui, format!("takes {}{keeps}", port.kinds), theme::DIM);
+        if let Some(meaning) = catalogue::meaning(port.of.as_str(), port.input) {
+            small(ui, meaning, theme::DIM);
+        }
         if let Some(activity) = activity {
             if let Some(value) = &activity.front {
                 code(ui, token::long(value), theme::TEXT);
@@ -101,11 +104,16 @@ pub(super) fn output(ctx: &Context, at: Pos2, port: &Port, look: &Look) {
 
 /// What a box reported.
 pub(super) fn reports(ctx: &Context, at: Pos2, shown: &Shown, look: &Look) {
-    let inside = |index: usize| match &shown.part {
-        Part::Box(own) => *own == index,
-        Part::Folded(members) => members.contains(&index),
-        Part::Guest => false,
+    let names: Vec<&str> = match &shown.part {
+        Part::Folded(members) => {
+            let boxes = members
+                .iter()
+                .filter_map(|&member| look.picture.boxes.get(member));
+            boxes.map(|seen| seen.name.as_str()).collect()
+        }
+        Part::Box(_) | Part::Guest => vec![shown.name.as_str()],
     };
+    let of_it = |words: &str| names.iter().any(|name| speaks_of(words, name));
     let count = boxes::reports(shown, &look.activity);
     at_pointer(ctx, at, |ui| {
         let times = if count == 1 {
@@ -115,13 +123,22 @@ pub(super) fn reports(ctx: &Context, at: Pos2, shown: &Shown, look: &Look) {
         };
         small(ui, format!("went wrong {times}"), theme::FAULTED);
         let mut told: Vec<&str> = Vec::new();
-        for (_, words) in look.reports.iter().rev().filter(|(index, _)| inside(*index)) {
+        for words in look.remarks.iter().rev().filter(|words| of_it(words)) {
             if !told.contains(&words.as_str()) && told.len() < REPORTS {
                 told.push(words);
                 small(ui, words.clone(), theme::TEXT);
             }
         }
     });
+}
+
+/// Whether a remark is about what bears a name: it stands before the brackets that say what it is.
+fn speaks_of(words: &str, name: &str) -> bool {
+    let mut found = words.match_indices(name);
+    found.any(|(at, _)| {
+        let begins = words[..at].chars().next_back().is_none_or(char::is_whitespace);
+        begins && words[at + name.len()..].starts_with(" (")
+    })
 }
 
 /// Why a wire that hangs at the pointer does not fit, or what it would mean.

@@ -66,7 +66,9 @@ fn straighten(layered: &Layered, tops: &mut [f32]) {
         if lowest <= highest {
             let mean = corners.iter().map(|&corner| tops[corner]).sum::<f32>() / corners.len() as f32;
             let level = mean.clamp(lowest, highest);
-            corners.iter().for_each(|&corner| tops[corner] = level);
+            for &corner in corners {
+                tops[corner] = level;
+            }
         }
     }
 }

@@ -105,8 +105,10 @@ impl Outer {
 
     fn take_frame(&mut self, scene: &Scene, members: &[usize], was: &dyn Fn(usize) -> Option<Vec2>) {
         let inside = |index: usize| members.iter().position(|&member| member == index);
-        let mut graph = Graph::default();
-        graph.nodes = members.iter().map(|&member| node(scene, member, was)).collect();
+        let mut graph = Graph {
+            nodes: members.iter().map(|&member| node(scene, member, was)).collect(),
+            edges: Vec::new(),
+        };
         let mut wires = Vec::new();
         for (index, wire) in scene.wires.iter().enumerate() {
             if let (Some(from), Some(to)) = (inside(wire.from.0), inside(wire.to.0)) {
@@ -157,8 +159,9 @@ fn node(scene: &Scene, index: usize, was: &dyn Fn(usize) -> Option<Vec2>) -> Nod
     let shown = &scene.boxes[index];
     Node {
         size: shown.size,
-        first: shown.role == Role::Device,
-        last: matches!(shown.role, Role::Node | Role::Parameter),
+        // Dials send, labels and lamps only show.
+        first: shown.role == Role::Device && !shown.outputs.is_empty(),
+        last: shown.outputs.is_empty() && !matches!(shown.role, Role::Function | Role::Variable),
         was: was(index),
     }
 }

@@ -1,15 +1,11 @@
 //! A network at the other end of the patch panel: a machine of its own, so that the panel can be tried by itself.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use ps300::language::{self, Command, Definition, Input, Name, Node, Operation};
-use ps300::machine::devices::READOUTS;
-use ps300::network::Role as InstanceRole;
-use ps300::{Kind, Kinds, Machine, Value};
-use ui::patch::look::{
-    Activity, Ask, BoxPicture, InputActivity, Look, OutputActivity, Picture, PortPicture, Role, Wire,
-};
+use ps300::language;
+use ps300::{Kinds, Machine, Value};
+use rig::{NetworkEdit, NetworkLook, Note, NoteLevel};
+use ui::patch::look::Picture;
 
 /// Firings a tick may take: more than any network here needs.
 const FIRINGS: u32 = 100_000;
@@ -18,13 +14,10 @@ const FIRINGS: u32 = 100_000;
 pub(crate) struct Link {
     machine: Machine,
     sinks: Vec<(String, Vec<Kinds>)>,
-    sent: BTreeMap<(Name, u8), (u64, Option<Value>)>,
-    frozen: BTreeMap<(Name, u8), u64>,
-    reports: Vec<(Name, String)>,
+    notes: Vec<Note>,
     past: Vec<String>,
     future: Vec<String>,
-    picture: Arc<Picture>,
-    shape: String,
+    picture: Option<Arc<Picture>>,
     ticks: u64,
 }
 
@@ -37,13 +30,10 @@ impl Link {
                 .iter()
                 .map(|(name, kinds)| ((*name).to_owned(), kinds.to_vec()))
                 .collect(),
-            sent: BTreeMap::new(),
-            frozen: BTreeMap::new(),
-            reports: Vec::new(),
+            notes: Vec::new(),
             past: Vec::new(),
             future: Vec::new(),
-            picture: Arc::default(),
-            shape: String::new(),
+            picture: None,
             ticks: 0,
         };
         link.load(program);
@@ -58,6 +48,7 @@ impl Link {
         let wrong = machine.load(program);
         assert!(wrong.is_empty(), "{wrong:?}");
         self.machine = machine;
+        self.picture = None;
     }
 
     pub(crate) fn text(&self) -> String {
@@ -65,38 +56,32 @@ impl Link {
     }
 
     /// Does what a hand wanted. Commands that are refused are left out.
-    pub(crate) fn ask(&mut self, ask: Ask) {
+    pub(crate) fn edit(&mut self, edit: &NetworkEdit) {
         let before = self.text();
-        match ask {
-            Ask::Commands(text) => {
-                self.machine.load(&text);
-            }
-            Ask::Program(text) => self.load(&text),
-            Ask::Undo => {
-                if let Some(text) = self.past.pop() {
-                    self.future.push(before);
-                    self.load(&text);
-                }
+        let (from, to) = match edit {
+            NetworkEdit::Undo => (&mut self.past, &mut self.future),
+            NetworkEdit::Redo => (&mut self.future, &mut self.past),
+            NetworkEdit::Commands(text) => {
+                self.machine.load(text);
+                self.past.push(before);
+                self.future.clear();
                 return;
             }
-            Ask::Redo => {
-                if let Some(text) = self.future.pop() {
-                    self.past.push(before);
-                    self.load(&text);
-                }
+            NetworkEdit::Program(text) => {
+                self.load(text);
+                self.past.push(before);
+                self.future.clear();
                 return;
             }
-            Ask::Freeze { name, output, on } => {
-                if on {
-                    self.frozen.insert((name, output), 0);
-                } else {
-                    self.frozen.remove(&(name, output));
-                }
+            NetworkEdit::Freeze { name, output, on } => {
+                assert!(self.machine.freeze(name, *output, *on), "{edit:?}");
                 return;
             }
+        };
+        if let Some(text) = from.pop() {
+            to.push(before);
+            self.load(&text);
         }
-        self.past.push(before);
-        self.future.clear();
     }
 
     pub(crate) fn emit(&mut self, device: &str, output: u8, value: impl Into<Value>) {
@@ -105,220 +90,31 @@ impl Link {
 
     pub(crate) fn tick(&mut self) {
         self.ticks += 1;
-        self.machine.tick(self.ticks as f64 / 60.0, self.ticks, FIRINGS);
-        let heard: Vec<_> = self.machine.drain_watched().collect();
-        for watched in heard {
-            let seen = self
-                .sent
-                .entry((watched.name.clone(), watched.output))
-                .or_default();
-            *seen = (seen.0 + 1, Some(watched.value.clone()));
-        }
-        for report in self.machine.reports() {
-            self.reports.push((report.name.clone(), report.to_string()));
-        }
+        let at_secs = self.ticks as f64 / 60.0;
+        self.machine.tick(at_secs, self.ticks, FIRINGS);
+        let reports = self.machine.reports();
+        self.notes.extend(reports.iter().map(|report| Note {
+            at_secs,
+            level: NoteLevel::Warning,
+            text: report.to_string(),
+        }));
     }
 
     /// What the panel is told now.
-    pub(crate) fn look(&mut self) -> Look {
-        let text = self.text();
-        if text != self.shape {
-            self.picture = Arc::new(self.painted());
-            self.shape.clone_from(&text);
-        }
-        let picture = self.picture.clone();
-        let place = |name: &Name| picture.boxes.iter().position(|seen| seen.name == *name);
-        let reports = self
-            .reports
-            .iter()
-            .filter_map(|(name, words)| Some((place(name)?, words.clone())));
-        Look {
-            activity: Arc::new(self.activity()),
-            text: text.into(),
+    pub(crate) fn look(&mut self) -> (NetworkLook, Vec<Note>) {
+        let revision = self.machine.topology_revision();
+        let known = self.picture.take().filter(|picture| picture.revision == revision);
+        let picture = known.unwrap_or_else(|| Arc::new(self.machine.picture()));
+        self.picture = Some(picture.clone());
+        let look = NetworkLook {
+            activity: Arc::new(self.machine.activity(&picture)),
+            text: self.text().into(),
             can_undo: !self.past.is_empty(),
             can_redo: !self.future.is_empty(),
-            reports: reports.collect(),
-            picture: self.picture.clone(),
-        }
-    }
-
-    fn activity(&self) -> Activity {
-        let mut activity = Activity::default();
-        let instances = self.machine.instances();
-        for seen in &self.picture.boxes {
-            let instance = instances.iter().find(|instance| *instance.name == seen.name);
-            for (index, _) in seen.inputs.iter().enumerate() {
-                let input = instance.and_then(|instance| instance.inputs.get(index));
-                activity.inputs.push(InputActivity {
-                    waiting: input.map_or(0, |input| input.waiting as u32),
-                    front: input.and_then(|input| input.front.cloned()),
-                });
-            }
-            for (index, _) in seen.outputs.iter().enumerate() {
-                let key = (seen.name.clone(), index as u8 + 1);
-                let (sent, last) = self.sent.get(&key).cloned().unwrap_or_default();
-                activity.outputs.push(OutputActivity {
-                    sent,
-                    last,
-                    frozen: self.frozen.contains_key(&key),
-                    withheld: self.frozen.get(&key).copied().unwrap_or(0),
-                });
-            }
-            let count = self.reports.iter().filter(|(name, _)| *name == seen.name).count();
-            activity.reports.push(count as u64);
-        }
-        activity
-    }
-
-    fn painted(&mut self) -> Picture {
-        let wires = self.machine.connections();
-        let wired = |name: &Name| {
-            wires
-                .iter()
-                .any(|wire| wire.from == *name || wire.to.name == *name)
+            diagnostics: Arc::default(),
+            picture,
         };
-        let mut boxes: Vec<BoxPicture> = self
-            .instances()
-            .chain(nodes(&self.machine))
-            .chain(self.sink_boxes())
-            .collect();
-        let kept =
-            |seen: &BoxPicture| matches!(seen.role, Role::Function | Role::Variable) || wired(&seen.name);
-        let others = boxes.iter().filter(|seen| !kept(seen)).cloned().collect();
-        boxes.retain(kept);
-        let place = |name: &Name| boxes.iter().position(|seen| seen.name == *name);
-        let wires = wires
-            .iter()
-            .filter_map(|wire| {
-                Some(Wire {
-                    from_box: place(&wire.from)?,
-                    output: wire.output,
-                    to_box: place(&wire.to.name)?,
-                    input: wire.to.input,
-                })
-            })
-            .collect();
-        for seen in &boxes {
-            for output in 1..=seen.outputs.len() as u8 {
-                self.machine.watch(seen.name.as_str(), output);
-            }
-        }
-        Picture {
-            revision: self.picture.revision + 1,
-            boxes,
-            wires,
-            others,
-        }
-    }
-
-    fn instances(&self) -> impl Iterator<Item = BoxPicture> {
-        let picture = |instance: ps300::machine::InstanceView<'_>| {
-            let size = instance.size.map_or_else(String::new, |size| format!("({size})"));
-            let (role, what) = match instance.role {
-                InstanceRole::Device => (Role::Device, String::from("device")),
-                InstanceRole::Variable => (Role::Variable, String::from("variable")),
-                InstanceRole::Function => (Role::Function, format!("F:{}{size}", instance.spec.name)),
-            };
-            let inputs = instance.inputs.iter().enumerate();
-            let outputs = instance.outputs.iter().enumerate();
-            BoxPicture {
-                name: instance.name.clone(),
-                role,
-                what: what.into(),
-                structure: None,
-                labels: Vec::new(),
-                inputs: inputs
-                    .map(|(index, input)| port(index, input.kinds, input.constant))
-                    .collect(),
-                outputs: outputs
-                    .map(|(index, output)| port(index, output.kinds, false))
-                    .collect(),
-            }
-        };
-        self.machine
-            .instances()
-            .into_iter()
-            .map(picture)
-            .collect::<Vec<_>>()
-            .into_iter()
-    }
-
-    fn sink_boxes(&self) -> impl Iterator<Item = BoxPicture> + '_ {
-        let own = self.sinks.iter().map(|(name, kinds)| sink(name, kinds));
-        let desk = READOUTS.iter().flat_map(|readout| {
-            let numbers = readout.numbers.map_or(0..=0, |(first, last)| first..=last);
-            numbers.map(move |number| match readout.numbers {
-                Some(_) => sink(&format!("{}{number}", readout.name), &[readout.kinds]),
-                None => sink(readout.name, &[readout.kinds]),
-            })
-        });
-        own.chain(desk)
-    }
-}
-
-fn port(index: usize, kinds: Kinds, constant: bool) -> PortPicture {
-    PortPicture {
-        input: Input::Number(index as u16 + 1),
-        kinds,
-        constant,
-    }
-}
-
-fn sink(name: &str, kinds: &[Kinds]) -> BoxPicture {
-    BoxPicture {
-        name: Name::new(name),
-        role: Role::Parameter,
-        what: "parameter".into(),
-        structure: None,
-        labels: Vec::new(),
-        inputs: kinds
-            .iter()
-            .enumerate()
-            .map(|(index, &kinds)| port(index, kinds, false))
-            .collect(),
-        outputs: Vec::new(),
-    }
-}
-
-/// Labelled operations of structures.
-fn nodes(machine: &Machine) -> impl Iterator<Item = BoxPicture> {
-    let mut found = Vec::new();
-    for command in machine.program() {
-        let Command::Define {
-            name,
-            definition: Definition::Node(Node::Structure(members)),
-        } = command
-        else {
-            continue;
-        };
-        for member in members {
-            let (Some(label), Node::Operation { operation, .. }) = (member.label, member.node) else {
-                continue;
-            };
-            let (what, kinds) = operation_port(&operation);
-            found.push(BoxPicture {
-                name: Name::new(&format!("{name}.{label}")),
-                role: Role::Node,
-                what: what.into(),
-                structure: Some(name.clone()),
-                labels: Vec::new(),
-                inputs: vec![port(0, kinds, false)],
-                outputs: Vec::new(),
-            });
-        }
-    }
-    found.into_iter()
-}
-
-fn operation_port(operation: &Operation) -> (&'static str, Kinds) {
-    match operation {
-        Operation::Rotate { .. } => ("ROTATE", Kinds::of(&[Kind::Matrix3])),
-        Operation::Translate(_) => ("TRANSLATE", Kinds::of(&[Kind::Vector2, Kind::Vector3])),
-        Operation::Scale(_) => (
-            "SCALE",
-            Kinds::NUMBER | Kinds::of(&[Kind::Matrix3, Kind::Vector3]),
-        ),
-        _ => ("operation", Kinds::ANY),
+        (look, self.notes.clone())
     }
 }
 

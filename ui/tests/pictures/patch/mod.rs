@@ -18,6 +18,8 @@ use machine::Link;
 pub(crate) struct Room {
     pub(crate) harness: Harness<'static, Bench>,
     pub(crate) link: Link,
+    /// What hands wanted of anything but the network.
+    pub(crate) said: Vec<rig::Command>,
     area: Rect,
 }
 
@@ -29,6 +31,7 @@ impl Room {
         let mut room = Room {
             harness,
             link,
+            said: Vec::new(),
             area: Areas::of(window).patch(),
         };
         room.step();
@@ -38,11 +41,16 @@ impl Room {
 
     /// One picture: the network is seen, then what hands wanted is done.
     pub(crate) fn step(&mut self) {
-        let look = self.link.look();
-        self.harness.state_mut().studio.see_network(Some(look));
+        let (look, notes) = self.link.look();
+        let bench = self.harness.state_mut();
+        bench.seen.network = Some(look);
+        bench.seen.notes = notes;
         self.harness.step();
-        for ask in self.harness.state_mut().studio.take_asks() {
-            self.link.ask(ask);
+        for command in std::mem::take(&mut self.harness.state_mut().said) {
+            match command {
+                rig::Command::Network(edit) => self.link.edit(&edit),
+                other => self.said.push(other),
+            }
         }
     }
 
