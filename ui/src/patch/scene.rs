@@ -132,7 +132,7 @@ impl Scene {
     fn take_boxes(&mut self, picture: &Picture, folded: &BTreeSet<Name>) -> Vec<usize> {
         let mut places = Vec::with_capacity(picture.boxes.len());
         for (index, seen) in picture.boxes.iter().enumerate() {
-            let around = seen.structure.as_ref().filter(|around| folded.contains(around));
+            let around = seen.structure.as_ref().filter(|around| folded.contains(*around));
             let place = if let Some(around) = around {
                 let known = self.by_name.get(around).copied();
                 let place = known.unwrap_or_else(|| self.add(Shown::folded(around)));
