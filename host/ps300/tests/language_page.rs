@@ -30,7 +30,7 @@ fn reference() -> String {
         // Writing to a string cannot fail, here and below.
         let _ = write!(page, "\n### {}\n", section.title);
         for form in section.forms {
-            let written = form.form.replace("; ", ";` `");
+            let written = form.form.replace('\n', "` `");
             let _ = write!(
                 page,
                 "\n#### {}\n\n`{written}`\n\n{}\n",

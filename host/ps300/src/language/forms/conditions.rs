@@ -6,7 +6,7 @@ use crate::intrinsic::Confidence::{High, Medium};
 pub(super) const FORMS: &[Form] = &[
     Form {
         keyword: "SET CONDITIONAL_BIT",
-        form: "n := SET CONDitional_bit k ON/OFF; n := SET COND_BIT k ON/OFF;",
+        form: "n := SET CONDitional_bit k ON/OFF;\nn := SET COND_BIT k ON/OFF;",
         example: "line := VECTOR_LIST 0,0 1,0;\nshown := IF CONDITIONAL_BIT 3 IS ON THEN line;\n\
             chosen := SET CONDITIONAL_BIT 3 ON THEN shown;\nDISPLAY chosen;",
         meaning: "A bit below it, k from 0 to 14. All are off at the top.",
@@ -32,7 +32,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "INCREMENT LEVEL_OF_DETAIL",
-        form: "n := INCRement LEVel_of_detail; n := DECRement LEVel_of_detail;",
+        form: "n := INCRement LEVel_of_detail;\nn := DECRement LEVel_of_detail;",
         example: "line := VECTOR_LIST 0,0 1,0;\nless := DECREMENT LEVEL_OF_DETAIL THEN line;\n\
             more := INCREMENT LEVEL_OF_DETAIL THEN less;\nDISPLAY more;",
         meaning: "One more, one less, below it.",

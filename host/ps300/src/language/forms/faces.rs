@@ -39,7 +39,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "SURFACE_RENDERING",
-        form: "n := SURFACE_RENDering [APPLied TO m]; n := SOLID_RENDering [APPLied TO m];",
+        form: "n := SURFACE_RENDering [APPLied TO m];\nn := SOLID_RENDering [APPLied TO m];",
         example: "face := POLYGON 0,0,0 1,0,0 0,1,0;\nsheet := SURFACE_RENDERING APPLIED TO face;\n\
             solid := SOLID_RENDERING APPLIED TO face;\nDISPLAY sheet;",
         meaning: "Where messages ask for a rendering of the polygons below: as open sheets, of which both sides count, or \

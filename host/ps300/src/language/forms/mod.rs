@@ -20,7 +20,8 @@ pub struct Form {
     /// The word it is known by, whole.
     pub keyword: &'static str,
     /// How it is written. Capitals are the least that must be written of a keyword, `[ ]` may be left out, `/`
-    /// separates choices, `…` goes on in the same way, and what is in small letters is filled in.
+    /// separates choices, `…` goes on in the same way, and what is in small letters is filled in. A line each where
+    /// there are several.
     pub form: &'static str,
     /// A program of its own that uses it.
     pub example: &'static str,

@@ -6,7 +6,7 @@ use crate::intrinsic::Confidence::{High, Medium, Project};
 pub(super) const FORMS: &[Form] = &[
     Form {
         keyword: "F:",
-        form: "n := F:type; n := F:type(k);",
+        form: "n := F:type;\nn := F:type(k);",
         example: "sum := F:ADDC;\nswitch := F:ROUTE(4);",
         meaning: "Makes an instance of a function; types that route or join have a size. The same name again makes a \
             new one, with empty queues and no connections.",
@@ -27,7 +27,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "DISCONNECT",
-        form: "DISConnect a<i>:<j>b; DISConnect a<i>:ALL; DISConnect a:ALL;",
+        form: "DISConnect a<i>:<j>b;\nDISConnect a<i>:ALL;\nDISConnect a:ALL;",
         example: "a := F:NOP;\nCONNECT DIALS<1>:<1>a;\nCONNECT DIALS<2>:<1>a;\nDISCONNECT DIALS<1>:<1>a;\n\
             DISCONNECT DIALS<2>:ALL;\nDISCONNECT a:ALL;",
         meaning: "One connection, all of one output, all of all outputs. Messages that wait stay.",
@@ -60,7 +60,7 @@ pub(super) const FORMS: &[Form] = &[
         confidence: Medium,
     },
     Form {
-        keyword: "VL",
+        keyword: "VL, written out",
         form: "SEND VL([class] [N=k] …) TO <j>b;",
         example: "hold := F:CONSTANT;\nSEND VL(ITEMIZED P 0,0,0 L 1,1,1) TO <2>hold;",
         meaning: "Vectors written out, as after VECTOR_LIST. A single word is the name of a list: `VL(DOTS)` is a name, \

@@ -36,7 +36,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "INCLUDE",
-        form: "INCLude a IN n; REMove a FROM n;",
+        form: "INCLude a IN n;\nREMove a FROM n;",
         example: "all := INSTANCE OF one;\none := VECTOR_LIST 0,0 1,0;\ntwo := VECTOR_LIST 0,0 0,1;\nINCLUDE two IN all;\n\
             REMOVE one FROM all;\nDISPLAY all;",
         meaning: "Changes what an INSTANCE shows. A name is in it once.",
@@ -45,7 +45,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "DISPLAY",
-        form: "DISPlay n; REMove n;",
+        form: "DISPlay n;\nREMove n;",
         example: "line := VECTOR_LIST 0,0 1,0;\nDISPLAY line;\nREMOVE line;",
         meaning: "On the screen, and off it.",
         source: "recollected; operands as in D0's call PDISP",
@@ -53,7 +53,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "DELETE",
-        form: "DELete n; DELete prefix*;",
+        form: "DELete n;\nDELete prefix*;",
         example: "a1 := F:NOP;\na2 := F:NOP;\nb := F:NOP;\nDELETE b;\nDELETE a*;",
         meaning: "The name and what it denotes; all names that begin so.",
         source: "recollected; operands as in D0's calls PDELET, PDELW",

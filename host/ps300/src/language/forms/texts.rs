@@ -57,7 +57,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "CHARACTER FONT",
-        form: "n := CHARacter FONT f; n := STANdard FONT;",
+        form: "n := CHARacter FONT f;\nn := STANdard FONT;",
         example: "runes := BEGIN_FONT C[65]: P 0,0 L 0.5,1 L 1,0; END_FONT;\ntitle := CHARACTERS 'A';\n\
             own := STANDARD FONT THEN title;\nset := CHARACTER FONT runes THEN own;\nDISPLAY set;",
         meaning: "The font of the characters below; the machine's own.",

@@ -6,7 +6,7 @@ use crate::intrinsic::Confidence::High;
 pub(super) const FORMS: &[Form] = &[
     Form {
         keyword: "APPLIED TO",
-        form: "n := operation [APPLied TO m]; n := operation [THEN m];",
+        form: "n := operation [APPLied TO m];\nn := operation [THEN m];",
         example: "line := VECTOR_LIST 0,0 1,0;\nturned := ROTATE IN Z 90 APPLIED TO line;\nred := SET COLOR 120,1 THEN turned;\n\
             DISPLAY red;",
         meaning: "Every operation below may end so; inside a structure that is left out, and it holds for what follows.",
@@ -31,7 +31,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "SCALE",
-        form: "n := SCAle BY s; n := SCAle BY sx,sy[,sz];",
+        form: "n := SCAle BY s;\nn := SCAle BY sx,sy[,sz];",
         example: "line := VECTOR_LIST 0,0 1,0;\nlong := SCALE BY 2 THEN line;\nflat := SCALE BY 2,0.5 THEN line;\nDISPLAY long;",
         meaning: "One factor for all axes; of two, z keeps 1.",
         source: "recollected; operands as in D0's call PSCALE",
@@ -39,7 +39,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "MATRIX",
-        form: "n := MATRIX_2X2 numbers; n := MATRIX_3X3 numbers; n := MATRIX_4X3 numbers; n := MATRIX_4X4 numbers;",
+        form: "n := MATRIX_2X2 numbers;\nn := MATRIX_3X3 numbers;\nn := MATRIX_4X3 numbers;\nn := MATRIX_4X4 numbers;",
         example: "line := VECTOR_LIST 0,0 1,0;\nturned := MATRIX_3x3 0,-1,0 1,0,0 0,0,1 THEN line;\n\
             moved := MATRIX_4x3 1,0,0,5 0,1,0,0 0,0,1,0 THEN line;\nsame := MATRIX_4x4 1,0,0,0 0,1,0,0 0,0,1,0 0,0,0,1 THEN line;\n\
             text := CHARACTERS 'slanted';\nslanted := MATRIX_2x2 1,0.3 0,1 THEN text;\nDISPLAY turned;",
@@ -59,7 +59,7 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "FIELD_OF_VIEW",
-        form: "n := FIELD_of_view degrees [FRONT BOUNDary=f BACK BOUNDary=b]; n := FOV …;",
+        form: "n := FIELD_of_view degrees [FRONT BOUNDary=f BACK BOUNDary=b];\nn := FOV …;",
         example: "line := VECTOR_LIST 0,0 1,0;\npicture := FIELD_OF_VIEW 30 FRONT BOUNDARY=1 BACK BOUNDARY=10 THEN line;\n\
             DISPLAY picture;",
         meaning: "Perspective with this full angle; f and b are distances from the eye.",
