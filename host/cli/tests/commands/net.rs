@@ -263,7 +263,7 @@ fn networks_are_printed_drawn_and_looked_up() {
                 "net functions ADDC CLFRAMES ROUTE ATSCALE --json",
                 0,
                 &[
-                    r#"{"name":"ADDC","inputs":[{"number":1,"kinds":["#,
+                    r#"{"name":"ADDC","family":"Arithmetic and logic","inputs":[{"number":1,"kinds":["#,
                     r#""number":2"#,
                     r#""constant":true,"default":null"#,
                     r#""outputs":[{"number":1,"kinds":["#,

@@ -34,7 +34,8 @@ pub const ABSENT: &[Absent] = &[
     absent(
         "LABEL",
         "builds label items",
-        "the form of label messages is not on record; LABELS nodes take strings and vectors as they are",
+        "the form of label messages is not on record; LABELS nodes take strings and vectors as \
+             they are",
     ),
     absent("PICKINFO", "unpacks a pick", "functions do not pick yet"),
     absent("POSITION_LINE", "not known", UNKNOWN),

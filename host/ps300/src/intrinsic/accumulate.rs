@@ -7,7 +7,7 @@ use glam::{DMat2, DMat3, DMat4, DVec3};
 use super::components::{assemble, components};
 use super::function::{Fault, Function, Inputs, Outputs, domain};
 use super::numbers::integer;
-use super::recalled::{Recalled, restore};
+use super::recalled::{Recalled, remembers_one, restore};
 use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kind, Kinds, Value};
 
@@ -18,7 +18,9 @@ const SUMMED: Kinds =
 const BOUND: Kinds = Kinds::NUMBER.or(Kinds::VECTOR);
 
 pub(super) const TABLE: &[Spec] = &[
-Spec::stateful("ACCUMULATE", &[
+    Spec::stateful(
+        "ACCUMULATE",
+        &[
             InputSpec::active(SUMMED),
             InputSpec::constant(
                 SUMMED,
@@ -28,30 +30,52 @@ Spec::stateful("ACCUMULATE", &[
             InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
             InputSpec::constant(BOUND, Preset::Rule("unbounded")),
             InputSpec::constant(BOUND, Preset::Rule("unbounded")),
-        ], &[OutputSpec::of(SUMMED)], |_| Box::<Accumulate>::default())
-.says("Running sum: <2> plus every <1> times the scale <4>, of the kind of <2> (without it, \
-                    of <1>, integers becoming real with the first real or a scale with a fraction), the stored sum kept \
-                    between the lower limit <6> and the upper limit <5>. A vector is limited component by component. \
-                    Sent on when it has changed by at least <3> since it was last sent. Sending <2> starts anew \
-                    from there without sending. Matrices are multiplied, new times old; scale and limits do not \
-                    apply to them.")
-.known(Confidence::Used, "D0 dial networks for inputs 1, 2, 4, 5, 6; input 3 recollected; matrices and defaults ours")
-.example("<2> V3D(0,0,0) | <4> 100 | <1> V3D(0.5,0,0) | <1> V3D(0,1,0) -> <1> V3D(50,0,0) | <1> V3D(50,100,0)"),
-Spec::stateful("DSCALE", &[
+        ],
+        &[OutputSpec::of(SUMMED)],
+        |_| Box::<Accumulate>::default(),
+    )
+    .says(
+        "Running sum: <2> plus every <1> times the scale <4>, of the kind of <2> (without it, of \
+             <1>, integers becoming real with the first real or a scale with a fraction), the stored \
+             sum kept between the lower limit <6> and the upper limit <5>. A vector is limited \
+             component by component. Sent on when it has changed by at least <3> since it was last \
+             sent. Sending <2> starts anew from there without sending. Matrices are multiplied, new \
+             times old; scale and limits do not apply to them.",
+    )
+    .known(
+        Confidence::Used,
+        "D0 dial networks for inputs 1, 2, 4, 5, 6; input 3 recollected; matrices and defaults \
+             ours",
+    )
+    .example(
+        "<2> V3D(0,0,0) | <4> 100 | <1> V3D(0.5,0,0) | <1> V3D(0,1,0) -> <1> V3D(50,0,0) | <1> \
+             V3D(50,100,0)",
+    ),
+    Spec::stateful(
+        "DSCALE",
+        &[
             InputSpec::active(Kinds::NUMBER),
             InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
             InputSpec::constant(Kinds::NUMBER, Preset::Real(1.0)),
             InputSpec::constant(Kinds::NUMBER, Preset::Rule("unbounded")),
             InputSpec::constant(Kinds::NUMBER, Preset::Rule("unbounded")),
-        ], &[
+        ],
+        &[
             OutputSpec::of(Kinds::of(&[Kind::Matrix3])),
             OutputSpec::of(Kinds::REAL),
-        ], |_| Box::<ScaleSum>::default())
-.says("Integrating uniform scale: the start <2> plus every <1> times the gain <3>, the stored sum kept \
-                    between the lower limit <5> and the upper limit <4>. Output <1> the scaling matrix, <2> the \
-                    factor. Sending <2> starts anew from there without sending.")
-.known(Confidence::Used, "D0 dial networks for all five inputs and output 1; output 2 recollected; defaults ours")
-.example("<3> 0.2 | <4> 1000 | <5> 0.01 | <1> 1 -> <1> M3D(1.2,0,0, 0,1.2,0, 0,0,1.2) | <2> 1.2"),
+        ],
+        |_| Box::<ScaleSum>::default(),
+    )
+    .says(
+        "Integrating uniform scale: the start <2> plus every <1> times the gain <3>, the stored \
+             sum kept between the lower limit <5> and the upper limit <4>. Output <1> the scaling \
+             matrix, <2> the factor. Sending <2> starts anew from there without sending.",
+    )
+    .known(
+        Confidence::Used,
+        "D0 dial networks for all five inputs and output 1; output 2 recollected; defaults ours",
+    )
+    .example("<3> 0.2 | <4> 1000 | <5> 0.01 | <1> 1 -> <1> M3D(1.2,0,0, 0,1.2,0, 0,0,1.2) | <2> 1.2"),
 ];
 
 /// The running sum of ACCUMULATE; nothing until the first firing after a (re)start.
@@ -294,11 +318,5 @@ impl Function for ScaleSum {
         Ok(())
     }
 
-    fn remembered(&self) -> Vec<Value> {
-        self.factor.map(Value::Real).into_iter().collect()
-    }
-
-    fn recall(&mut self, state: &[Value]) -> bool {
-        restore(&mut self.factor, None, state, |state| state.real().map(Some))
-    }
+    remembers_one!(factor, Real, real);
 }

@@ -36,74 +36,92 @@ const DIV_FIRST: &[InputSpec] = &[
 ];
 
 pub(super) const TABLE: &[Spec] = &[
-Spec::pure("ADD", BOTH, OUT, add)
-.scalar(|a, b| a + b)
-.says("<1> + <2>: numbers, or vectors or matrices of one kind.")
-.known(Confidence::High, "recollected")
-.example("<1> 1 | <1> 2 | <2> 10 | <2> 20 -> <1> 11 | <1> 22"),
-Spec::pure("ADDC", SECOND, OUT, add)
-.scalar(|a, b| a + b)
-.says("As ADD, <2> constant.")
-.known(Confidence::Used, "D0 tablet networks, with integers")
-.example("<2> 1 | <1> 1 | <2> 2 | <1> 1 -> <1> 2 | <1> 3"),
-Spec::pure("SUB", BOTH, OUT, sub)
-.scalar(|a, b| a - b)
-.says("<1> - <2>: numbers, or vectors or matrices of one kind.")
-.known(Confidence::High, "recollected")
-.example("<1> 5 | <2> 3 -> <1> 2"),
-Spec::pure("SUBC", SECOND, OUT, sub)
-.scalar(|a, b| a - b)
-.says("As SUB, <2> constant.")
-.known(Confidence::Used, "D0 tablet networks")
-.example("<2> FIX(1) | <1> FIX(5) -> <1> FIX(4)"),
-Spec::pure("CSUB", FIRST, OUT, sub)
-.scalar(|a, b| a - b)
-.says("As SUB, <1> constant.")
-.known(Confidence::High, "recollected")
-.example("<1> 10 | <2> 3 -> <1> 7"),
-Spec::pure("MUL", BOTH, OUT, mul)
-.scalar(|a, b| a * b)
-.says("<1> times <2>: numbers; a number and a vector or matrix; two matrices of one kind, <1> on the left; \
-         a matrix and a vector of as many components, which the matrix acts on as a column in either order.")
-.known(Confidence::Medium, "recollected; the side of the vector ours")
-.example("<1> 2 | <2> V3D(1,2,3) -> <1> V3D(2,4,6)"),
-Spec::pure("MULC", SECOND, OUT, mul)
-.scalar(|a, b| a * b)
-.says("As MUL, <2> constant.")
-.known(Confidence::Used, "D0 dial networks, with reals")
-.example("<2> 0.2 | <1> 10 -> <1> 2"),
-Spec::pure("CMUL", FIRST, OUT, mul)
-.scalar(|a, b| a * b)
-.says("As MUL, <1> constant.")
-.known(Confidence::High, "recollected")
-.example("<1> M3D(1,0,0, 0,0,-1, 0,1,0) | <2> V3D(0,1,0) -> <1> V3D(0,0,1)"),
-Spec::pure("DIV", DIV_BOTH, &[OutputSpec::of(SCALED)], div)
-.says("<1> divided by <2>: numbers, or a vector by a number. Two integers give an integer, cut off towards zero. \
-         Division by zero is reported and gives nothing.")
-.known(Confidence::Medium, "recollected; integers ours")
-.example("<1> FIX(7) | <2> FIX(-2) -> <1> FIX(-3)"),
-Spec::pure("DIVC", DIV_SECOND, &[OutputSpec::of(SCALED)], div)
-.says("As DIV, <2> constant.")
-.known(Confidence::Medium, "recollected")
-.example("<2> 4 | <1> 1 -> <1> 0.25"),
-Spec::pure("CDIV", DIV_FIRST, &[OutputSpec::of(SCALED)], div)
-.says("As DIV, <1> constant.")
-.known(Confidence::Medium, "recollected")
-.example("<1> 1 | <2> 4 -> <1> 0.25"),
-Spec::pure("MOD", &[
+    Spec::pure("ADD", BOTH, OUT, add)
+        .scalar(|a, b| a + b)
+        .says("<1> + <2>: numbers, or vectors or matrices of one kind.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 1 | <1> 2 | <2> 10 | <2> 20 -> <1> 11 | <1> 22"),
+    Spec::pure("ADDC", SECOND, OUT, add)
+        .scalar(|a, b| a + b)
+        .says("As ADD, <2> constant.")
+        .known(Confidence::Used, "D0 tablet networks, with integers")
+        .example("<2> 1 | <1> 1 | <2> 2 | <1> 1 -> <1> 2 | <1> 3"),
+    Spec::pure("SUB", BOTH, OUT, sub)
+        .scalar(|a, b| a - b)
+        .says("<1> - <2>: numbers, or vectors or matrices of one kind.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 5 | <2> 3 -> <1> 2"),
+    Spec::pure("SUBC", SECOND, OUT, sub)
+        .scalar(|a, b| a - b)
+        .says("As SUB, <2> constant.")
+        .known(Confidence::Used, "D0 tablet networks")
+        .example("<2> FIX(1) | <1> FIX(5) -> <1> FIX(4)"),
+    Spec::pure("CSUB", FIRST, OUT, sub)
+        .scalar(|a, b| a - b)
+        .says("As SUB, <1> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 10 | <2> 3 -> <1> 7"),
+    Spec::pure("MUL", BOTH, OUT, mul)
+        .scalar(|a, b| a * b)
+        .says(
+            "<1> times <2>: numbers; a number and a vector or matrix; two matrices of one kind, <1> \
+             on the left; a matrix and a vector of as many components, which the matrix acts on as a \
+             column in either order.",
+        )
+        .known(Confidence::Medium, "recollected; the side of the vector ours")
+        .example("<1> 2 | <2> V3D(1,2,3) -> <1> V3D(2,4,6)"),
+    Spec::pure("MULC", SECOND, OUT, mul)
+        .scalar(|a, b| a * b)
+        .says("As MUL, <2> constant.")
+        .known(Confidence::Used, "D0 dial networks, with reals")
+        .example("<2> 0.2 | <1> 10 -> <1> 2"),
+    Spec::pure("CMUL", FIRST, OUT, mul)
+        .scalar(|a, b| a * b)
+        .says("As MUL, <1> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<1> M3D(1,0,0, 0,0,-1, 0,1,0) | <2> V3D(0,1,0) -> <1> V3D(0,0,1)"),
+    Spec::pure("DIV", DIV_BOTH, &[OutputSpec::of(SCALED)], div)
+        .says(
+            "<1> divided by <2>: numbers, or a vector by a number. Two integers give an integer, cut \
+             off towards zero. Division by zero is reported and gives nothing.",
+        )
+        .known(Confidence::Medium, "recollected; integers ours")
+        .example("<1> FIX(7) | <2> FIX(-2) -> <1> FIX(-3)"),
+    Spec::pure("DIVC", DIV_SECOND, &[OutputSpec::of(SCALED)], div)
+        .says("As DIV, <2> constant.")
+        .known(Confidence::Medium, "recollected")
+        .example("<2> 4 | <1> 1 -> <1> 0.25"),
+    Spec::pure("CDIV", DIV_FIRST, &[OutputSpec::of(SCALED)], div)
+        .says("As DIV, <1> constant.")
+        .known(Confidence::Medium, "recollected")
+        .example("<1> 1 | <2> 4 -> <1> 0.25"),
+    Spec::pure(
+        "MOD",
+        &[
             InputSpec::active(Kinds::INTEGER),
-            InputSpec::active(Kinds::INTEGER)
-        ], &[OutputSpec::of(Kinds::INTEGER)], modulo)
-.says("The remainder of <1> divided by <2>, of the sign of <1>. Division by zero is reported and gives nothing.")
-.known(Confidence::Medium, "recollected; sign ours")
-.example("<1> FIX(-7) | <2> FIX(3) -> <1> FIX(-1)"),
-Spec::pure("MODC", &[
             InputSpec::active(Kinds::INTEGER),
-            InputSpec::constant(Kinds::INTEGER, Preset::Required)
-        ], &[OutputSpec::of(Kinds::INTEGER)], modulo)
-.says("As MOD, <2> constant.")
-.known(Confidence::Medium, "recollected")
-.example("<2> FIX(4) | <1> FIX(7) -> <1> FIX(3)"),
+        ],
+        &[OutputSpec::of(Kinds::INTEGER)],
+        modulo,
+    )
+    .says(
+        "The remainder of <1> divided by <2>, of the sign of <1>. Division by zero is reported \
+             and gives nothing.",
+    )
+    .known(Confidence::Medium, "recollected; sign ours")
+    .example("<1> FIX(-7) | <2> FIX(3) -> <1> FIX(-1)"),
+    Spec::pure(
+        "MODC",
+        &[
+            InputSpec::active(Kinds::INTEGER),
+            InputSpec::constant(Kinds::INTEGER, Preset::Required),
+        ],
+        &[OutputSpec::of(Kinds::INTEGER)],
+        modulo,
+    )
+    .says("As MOD, <2> constant.")
+    .known(Confidence::Medium, "recollected")
+    .example("<2> FIX(4) | <1> FIX(7) -> <1> FIX(3)"),
 ];
 
 const OVERFLOW: &str = "the result does not fit an integer of 32 bits";

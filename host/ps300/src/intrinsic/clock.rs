@@ -18,19 +18,27 @@ const OUTPUTS: &[OutputSpec] = &[OutputSpec::of(Kinds::INTEGER), OutputSpec::of(
 const SOURCE: &str = "names recollected; pins ours";
 
 pub(super) const TABLE: &[Spec] = &[
-Spec::clock("CLCSECONDS", INPUTS, OUTPUTS, |_| Box::new(Clock::new(|now| centiseconds(now.secs))))
-.says("Every <1> hundredths of a second of network time while <2> is TRUE: output <1> a count that begins at <3> \
-         and grows by <4>, output <2> TRUE. Sending <3> starts the count anew.")
-.known(Confidence::Low, SOURCE)
-.example("<1> FIX(50) | @0.5 | @1 -> <1> FIX(0) | <2> TRUE | <1> FIX(1) | <2> TRUE"),
-Spec::clock("CLFRAMES", INPUTS, OUTPUTS, |_| Box::new(Clock::new(|now| now.frame)))
-.says("As CLCSECONDS, every <1> displayed frames.")
-.known(Confidence::Low, SOURCE)
-.example("<1> FIX(30) | <3> FIX(5) | @0.5 -> <1> FIX(5) | <2> TRUE"),
-Spec::clock("CLTICKS", INPUTS, OUTPUTS, |_| Box::new(Clock::new(|now| now.ticks)))
-.says("As CLCSECONDS, every <1> ticks the host gives the machine.")
-.known(Confidence::Low, SOURCE)
-.example("<1> FIX(2) | @0.1 | @0.2 -> <1> FIX(0) | <2> TRUE"),
+    Spec::clock("CLCSECONDS", INPUTS, OUTPUTS, |_| {
+        Box::new(Clock::new(|now| centiseconds(now.secs)))
+    })
+    .says(
+        "Every <1> hundredths of a second of network time while <2> is TRUE: output <1> a count \
+             that begins at <3> and grows by <4>, output <2> TRUE. Sending <3> starts the count anew.",
+    )
+    .known(Confidence::Low, SOURCE)
+    .example("<1> FIX(50) | @0.5 | @1 -> <1> FIX(0) | <2> TRUE | <1> FIX(1) | <2> TRUE"),
+    Spec::clock("CLFRAMES", INPUTS, OUTPUTS, |_| {
+        Box::new(Clock::new(|now| now.frame))
+    })
+    .says("As CLCSECONDS, every <1> displayed frames.")
+    .known(Confidence::Low, SOURCE)
+    .example("<1> FIX(30) | <3> FIX(5) | @0.5 -> <1> FIX(5) | <2> TRUE"),
+    Spec::clock("CLTICKS", INPUTS, OUTPUTS, |_| {
+        Box::new(Clock::new(|now| now.ticks))
+    })
+    .says("As CLCSECONDS, every <1> ticks the host gives the machine.")
+    .known(Confidence::Low, SOURCE)
+    .example("<1> FIX(2) | @0.1 | @0.2 -> <1> FIX(0) | <2> TRUE"),
 ];
 
 /// Hundredths of a second since the start. The small addition keeps 0.29 from being counted as 28.

@@ -2,7 +2,7 @@
 
 use super::function::{Fault, Function, Inputs, Outputs};
 use super::numbers::integer;
-use super::recalled::restore;
+use super::recalled::remembers_one;
 use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use crate::value::{Kinds, Value};
 
@@ -20,8 +20,8 @@ pub(super) const TABLE: &[Spec] = &[
         limit,
     )
     .says(
-        "The number, no greater than the upper limit <2> and no less than the lower limit <3>. \
-                    An integer stays one; limits with fractions are cut off towards zero for it.",
+        "The number, no greater than the upper limit <2> and no less than the lower limit <3>. An \
+             integer stays one; limits with fractions are cut off towards zero for it.",
     )
     .known(
         Confidence::Medium,
@@ -39,11 +39,13 @@ pub(super) const TABLE: &[Spec] = &[
         range_select,
     )
     .says(
-        "The number on output <1> if it is no greater than <2> and no less than <3>, on output <2> if it is.",
+        "The number on output <1> if it is no greater than <2> and no less than <3>, on output \
+             <2> if it is.",
     )
     .known(
         Confidence::Low,
-        "recollected: one output in range, one out of it; pins ours, upper before lower as in LIMIT",
+        "recollected: one output in range, one out of it; pins ours, upper before lower as in \
+             LIMIT",
     )
     .example("<2> 5 | <3> -5 | <1> 3 | <1> 7 -> <1> 3 | <2> 7"),
     Spec::stateful(
@@ -71,8 +73,8 @@ pub(super) const TABLE: &[Spec] = &[
         |_| Box::<Edge>::default(),
     )
     .says(
-        "Sends the level <2> once each time <1> changes to it. Before the first message <1> counts as \
-                    the opposite level.",
+        "Sends the level <2> once each time <1> changes to it. Before the first message <1> \
+             counts as the opposite level.",
     )
     .known(Confidence::Medium, "recollected; default and start ours")
     .example("<1> TRUE | <1> TRUE | <1> FALSE | <1> TRUE -> <1> TRUE | <1> TRUE"),
@@ -113,13 +115,7 @@ impl Function for Delta {
         Ok(())
     }
 
-    fn remembered(&self) -> Vec<Value> {
-        self.passed.map(Value::Real).into_iter().collect()
-    }
-
-    fn recall(&mut self, state: &[Value]) -> bool {
-        restore(&mut self.passed, None, state, |state| state.real().map(Some))
-    }
+    remembers_one!(passed, Real, real);
 }
 
 #[derive(Default)]
@@ -137,11 +133,5 @@ impl Function for Edge {
         Ok(())
     }
 
-    fn remembered(&self) -> Vec<Value> {
-        self.before.map(Value::Boolean).into_iter().collect()
-    }
-
-    fn recall(&mut self, state: &[Value]) -> bool {
-        restore(&mut self.before, None, state, |state| state.boolean().map(Some))
-    }
+    remembers_one!(before, Boolean, boolean);
 }

@@ -19,27 +19,33 @@ pub(super) const TABLE: &[Spec] = &[
         |_| Box::<Gather>::default(),
     )
     .says(
-        "Collects what comes to <1> until the terminator <2> is in it, then sends what stands before it and begins \
-         anew with what stands behind. More than 4096 bytes without a terminator are reported and forgotten; so is \
-         a terminator of no characters.",
+        "Collects what comes to <1> until the terminator <2> is in it, then sends what stands \
+             before it and begins anew with what stands behind. More than 4096 bytes without a \
+             terminator are reported and forgotten; so is a terminator of no characters.",
     )
     .known(
         Confidence::Low,
         "recollected: collects up to a terminator; pins and default ours",
     )
     .example("<2> ';' | <1> 'ar' | <1> 'm;le' | <1> 'g;' -> <1> 'arm' | <1> 'leg'"),
-    Spec::stateful("LINEEDITOR", &[TEXT], &[OUT, OUT], |_| Box::<LineEditor>::default())
-        .says(
-            "Makes lines of keyed characters. Return, CHAR(13) or CHAR(10), sends the line on output <1> and begins \
-             the next; CHAR(8) and CHAR(127) take the last character back; CHAR(21) clears the line; other control \
-             characters are ignored. Output <2> the line as it stands, after every message. Characters that would \
-             make it longer than 4096 bytes are reported and left out.",
-        )
-        .known(
-            Confidence::Low,
-            "recollected: keyboard input into lines; keys and pins ours",
-        )
-        .example("<1> 'arn' | <1> CHAR(8) | <1> 'm' | <1> CHAR(13) -> <2> 'arn' | <2> 'ar' | <2> 'arm' | <1> 'arm' | <2> ''"),
+    Spec::stateful("LINEEDITOR", &[TEXT], &[OUT, OUT], |_| {
+        Box::<LineEditor>::default()
+    })
+    .says(
+        "Makes lines of keyed characters. Return, CHAR(13) or CHAR(10), sends the line on output \
+             <1> and begins the next; CHAR(8) and CHAR(127) take the last character back; CHAR(21) \
+             clears the line; other control characters are ignored. Output <2> the line as it stands, \
+             after every message. Characters that would make it longer than 4096 bytes are reported \
+             and left out.",
+    )
+    .known(
+        Confidence::Low,
+        "recollected: keyboard input into lines; keys and pins ours",
+    )
+    .example(
+        "<1> 'arn' | <1> CHAR(8) | <1> 'm' | <1> CHAR(13) -> <2> 'arn' | <2> 'ar' | <2> 'arm' | \
+             <1> 'arm' | <2> ''",
+    ),
 ];
 
 #[derive(Default)]

@@ -11,30 +11,63 @@ const V3: InputSpec = InputSpec::active(Kinds::of(&[Kind::Vector3]));
 const V4: InputSpec = InputSpec::active(Kinds::of(&[Kind::Vector4]));
 
 pub(super) const TABLE: &[Spec] = &[
-Spec::pure("MATRIX2", &[V2, V2], &[OutputSpec::of(Kinds::of(&[Kind::Matrix2]))], matrix2)
-.says("The 2x2 matrix with <1>, <2> as its rows.")
-.known(Confidence::High, "recollected")
-.example("<1> V2D(1,2) | <2> V2D(3,4) -> <1> M2D(1,2,3,4)"),
-Spec::pure("MATRIX3", &[V3, V3, V3], &[OutputSpec::of(Kinds::of(&[Kind::Matrix3]))], matrix3)
-.says("The 3x3 matrix with <1>, <2>, <3> as its rows.")
-.known(Confidence::Used, "D0 viewing networks")
-.example("<1> V3D(1,2,3) | <2> V3D(4,5,6) | <3> V3D(7,8,9) -> <1> M3D(1,2,3,4,5,6,7,8,9)"),
-Spec::pure("MATRIX4", &[V4, V4, V4, V4], &[OutputSpec::of(Kinds::of(&[Kind::Matrix4]))], matrix4)
-.says("The 4x4 matrix with <1> to <4> as its rows.")
-.known(Confidence::High, "recollected")
-.example("<1> V4D(1,2,3,4) | <2> V4D(5,6,7,8) | <3> V4D(9,1,2,3) | <4> V4D(4,5,6,7) -> <1> M4D(1,2,3,4,5,6,7,8,9,1,2,3,4,5,6,7)"),
-Spec::pure("SCALE", &[InputSpec::active(Kinds::NUMBER.or(Kinds::of(&[Kind::Vector3])))], &[OutputSpec::of(Kinds::of(&[Kind::Matrix3]))], scale)
-.says("The scaling by a number, or by a factor for each axis.")
-.known(Confidence::Used, "D0 dial networks, with a vector")
-.example("<1> 2 | <1> V3D(1,2,3) -> <1> M3D(2,0,0, 0,2,0, 0,0,2) | <1> M3D(1,0,0, 0,2,0, 0,0,3)"),
-Spec::pure("CROTATE", &[InputSpec::active(Kinds::NUMBER)], &[OutputSpec::of(Kinds::of(&[Kind::Matrix2]))], crotate)
-.says("The 2x2 rotation of characters by an angle in degrees.")
-.known(Confidence::Medium, "recollected")
-.example("<1> 90 -> <1> M2D(0,-1,1,0)"),
-Spec::pure("CSCALE", &[InputSpec::active(Kinds::NUMBER.or(Kinds::of(&[Kind::Vector2])))], &[OutputSpec::of(Kinds::of(&[Kind::Matrix2]))], cscale)
-.says("The 2x2 scaling of characters by a number, or by a factor for each axis.")
-.known(Confidence::Medium, "recollected")
-.example("<1> 2 | <1> V2D(1,3) -> <1> M2D(2,0,0,2) | <1> M2D(1,0,0,3)"),
+    Spec::pure(
+        "MATRIX2",
+        &[V2, V2],
+        &[OutputSpec::of(Kinds::of(&[Kind::Matrix2]))],
+        matrix2,
+    )
+    .says("The 2x2 matrix with <1>, <2> as its rows.")
+    .known(Confidence::High, "recollected")
+    .example("<1> V2D(1,2) | <2> V2D(3,4) -> <1> M2D(1,2,3,4)"),
+    Spec::pure(
+        "MATRIX3",
+        &[V3, V3, V3],
+        &[OutputSpec::of(Kinds::of(&[Kind::Matrix3]))],
+        matrix3,
+    )
+    .says("The 3x3 matrix with <1>, <2>, <3> as its rows.")
+    .known(Confidence::Used, "D0 viewing networks")
+    .example("<1> V3D(1,2,3) | <2> V3D(4,5,6) | <3> V3D(7,8,9) -> <1> M3D(1,2,3,4,5,6,7,8,9)"),
+    Spec::pure(
+        "MATRIX4",
+        &[V4, V4, V4, V4],
+        &[OutputSpec::of(Kinds::of(&[Kind::Matrix4]))],
+        matrix4,
+    )
+    .says("The 4x4 matrix with <1> to <4> as its rows.")
+    .known(Confidence::High, "recollected")
+    .example(
+        "<1> V4D(1,2,3,4) | <2> V4D(5,6,7,8) | <3> V4D(9,1,2,3) | <4> V4D(4,5,6,7) -> <1> \
+             M4D(1,2,3,4,5,6,7,8,9,1,2,3,4,5,6,7)",
+    ),
+    Spec::pure(
+        "SCALE",
+        &[InputSpec::active(Kinds::NUMBER.or(Kinds::of(&[Kind::Vector3])))],
+        &[OutputSpec::of(Kinds::of(&[Kind::Matrix3]))],
+        scale,
+    )
+    .says("The scaling by a number, or by a factor for each axis.")
+    .known(Confidence::Used, "D0 dial networks, with a vector")
+    .example("<1> 2 | <1> V3D(1,2,3) -> <1> M3D(2,0,0, 0,2,0, 0,0,2) | <1> M3D(1,0,0, 0,2,0, 0,0,3)"),
+    Spec::pure(
+        "CROTATE",
+        &[InputSpec::active(Kinds::NUMBER)],
+        &[OutputSpec::of(Kinds::of(&[Kind::Matrix2]))],
+        crotate,
+    )
+    .says("The 2x2 rotation of characters by an angle in degrees.")
+    .known(Confidence::Medium, "recollected")
+    .example("<1> 90 -> <1> M2D(0,-1,1,0)"),
+    Spec::pure(
+        "CSCALE",
+        &[InputSpec::active(Kinds::NUMBER.or(Kinds::of(&[Kind::Vector2])))],
+        &[OutputSpec::of(Kinds::of(&[Kind::Matrix2]))],
+        cscale,
+    )
+    .says("The 2x2 scaling of characters by a number, or by a factor for each axis.")
+    .known(Confidence::Medium, "recollected")
+    .example("<1> 2 | <1> V2D(1,3) -> <1> M2D(2,0,0,2) | <1> M2D(1,0,0,3)"),
 ];
 
 fn matrix2(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {

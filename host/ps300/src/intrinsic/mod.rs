@@ -40,31 +40,56 @@ pub use spec::{Confidence, InputSpec, OutputSpec, Preset, Spec, Times};
 pub(crate) use spec::{Does, Fire, Scalar};
 pub(crate) use store::VARIABLE;
 
+/// Functions that belong together, under the heading the reference page gives them.
+pub struct Family {
+    /// As a heading.
+    pub title: &'static str,
+    /// In order.
+    pub tables: &'static [&'static [Spec]],
+}
+
+/// All families, in the order of the reference page.
+pub const FAMILIES: &[Family] = &[
+    Family {
+        title: "Arithmetic and logic",
+        tables: &[accumulate::TABLE, arithmetic::TABLE, numbers::TABLE, logic::TABLE],
+    },
+    Family {
+        title: "Comparison",
+        tables: &[compare::TABLE],
+    },
+    Family {
+        title: "Selection and routing",
+        tables: &[route::TABLE, filter::TABLE, store::TABLE, retype::TABLE],
+    },
+    Family {
+        title: "Vectors, matrices, transforms",
+        tables: &[vector::TABLE, rotate::TABLE, matrix::TABLE, view::TABLE],
+    },
+    Family {
+        title: "Strings and text",
+        tables: &[text::TABLE, strings::TABLE, gather::TABLE],
+    },
+    Family {
+        title: "Time",
+        tables: &[clock::TABLE, timeout::TABLE],
+    },
+    Family {
+        title: "Functions of today",
+        tables: &modern::TABLES,
+    },
+];
+
+impl Family {
+    /// Its functions, in order.
+    pub fn functions(&self) -> impl Iterator<Item = &'static Spec> + use<> {
+        self.tables.iter().copied().flatten()
+    }
+}
+
 /// Every function that can be instanced, in the order of the reference page.
 pub fn table() -> impl Iterator<Item = &'static Spec> {
-    [
-        accumulate::TABLE,
-        arithmetic::TABLE,
-        numbers::TABLE,
-        logic::TABLE,
-        compare::TABLE,
-        route::TABLE,
-        filter::TABLE,
-        store::TABLE,
-        vector::TABLE,
-        rotate::TABLE,
-        matrix::TABLE,
-        view::TABLE,
-        text::TABLE,
-        strings::TABLE,
-        gather::TABLE,
-        retype::TABLE,
-        clock::TABLE,
-        timeout::TABLE,
-    ]
-    .into_iter()
-    .chain(modern::TABLES)
-    .flatten()
+    FAMILIES.iter().flat_map(Family::functions)
 }
 
 /// The function `name`, in any case.

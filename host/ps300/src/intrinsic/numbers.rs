@@ -73,8 +73,8 @@ pub(super) const TABLE: &[Spec] = &[
         |_| Box::<Average>::default(),
     )
     .says(
-        "The mean of the last <2> numbers, of as many as have come while they are fewer. \
-                    <2> lies between 1 and 1024.",
+        "The mean of the last <2> numbers, of as many as have come while they are fewer. <2> lies \
+             between 1 and 1024.",
     )
     .known(Confidence::Low, "recollected; bounds ours")
     .example("<1> 3 | <1> 5 -> <1> 3 | <1> 5"),

@@ -29,6 +29,26 @@ pub(super) fn restore<'a, T>(
     found.map(|found| *place = found).is_some()
 }
 
+/// [`Function`](super::function::Function)'s two methods of state where one value that may be absent is all
+/// that is remembered: its field, the kind it is written as, and how it is read.
+macro_rules! remembers_one {
+    ($field:ident, $kind:ident, $read:ident) => {
+        fn remembered(&self) -> Vec<crate::value::Value> {
+            self.$field
+                .map(crate::value::Value::$kind)
+                .into_iter()
+                .collect()
+        }
+
+        fn recall(&mut self, state: &[crate::value::Value]) -> bool {
+            crate::intrinsic::recalled::restore(&mut self.$field, None, state, |state| {
+                state.$read().map(Some)
+            })
+        }
+    };
+}
+pub(super) use remembers_one;
+
 /// A real that may be absent, as one value of a state; see [`Recalled::optional`].
 pub(super) fn optional(real: Option<f64>) -> Value {
     real.map_or(Value::Boolean(false), Value::Real)

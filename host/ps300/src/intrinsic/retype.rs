@@ -15,10 +15,10 @@ pub(super) const TABLE: &[Spec] = &[Spec::pure(
     change,
 )
 .says(
-    "<1> as a message of the kind named <2>: 'boolean', 'integer', 'real', 'string', 'vector2', 'vector3', \
-     'vector4'. A number is TRUE unless it is 0, and loses its fraction as an integer; a string is read; a vector \
-     gains zeros or loses its last components, a number becomes its first. What has no such form is reported and \
-     gives nothing.",
+    "<1> as a message of the kind named <2>: 'boolean', 'integer', 'real', 'string', \
+             'vector2', 'vector3', 'vector4'. A number is TRUE unless it is 0, and loses its fraction \
+             as an integer; a string is read; a vector gains zeros or loses its last components, a \
+             number becomes its first. What has no such form is reported and gives nothing.",
 )
 .known(
     Confidence::Low,

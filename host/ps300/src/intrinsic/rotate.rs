@@ -5,9 +5,9 @@
 use glam::DMat3;
 
 use super::function::{Fault, Function, Inputs, Outputs, domain};
-use super::recalled::restore;
+use super::recalled::remembers_one;
 use super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
-use crate::value::{Kind, Kinds, Value};
+use crate::value::{Kind, Kinds};
 
 const MATRIX3: OutputSpec = OutputSpec::of(Kinds::of(&[Kind::Matrix3]));
 
@@ -33,11 +33,14 @@ macro_rules! absolute {
 macro_rules! integrating {
     ($name:literal, $about:expr) => {
         Spec::stateful($name, MOVEMENT_IN, MOVEMENT_OUT, |_| {
-            Box::new(Turning { about: $about, degrees: None })
+            Box::new(Turning {
+                about: $about,
+                degrees: None,
+            })
         })
         .says(
-            "Running angle in degrees: the start <2> plus every <1> times the scale <3>. Output <1> the rotation \
-             by it, <2> the angle. Sending <2> starts anew from there without sending.",
+            "Running angle in degrees: the start <2> plus every <1> times the scale <3>. Output <1> \
+             the rotation by it, <2> the angle. Sending <2> starts anew from there without sending.",
         )
         .known(
             Confidence::Used,
@@ -60,8 +63,11 @@ pub(super) const TABLE: &[Spec] = &[
         .example("<3> 200 | <1> 0.45 -> <1> M3D(1,0,0, 0,0,-1, 0,1,0) | <2> 90"),
     integrating!("DYROTATE", DMat3::from_rotation_y)
         .example("<2> 45 | <1> 45 -> <1> M3D(0,0,1, 0,1,0, -1,0,0) | <2> 90"),
-    integrating!("DZROTATE", DMat3::from_rotation_z)
-        .example("<3> 90 | <1> 0.5 | <1> 0.5 -> <1> M3D(0.7071067811865476,-0.7071067811865476,0, 0.7071067811865476,0.7071067811865476,0, 0,0,1) | <2> 45 | <1> M3D(0,-1,0, 1,0,0, 0,0,1) | <2> 90"),
+    integrating!("DZROTATE", DMat3::from_rotation_z).example(
+        "<3> 90 | <1> 0.5 | <1> 0.5 -> <1> M3D(0.7071067811865476,-0.7071067811865476,0, \
+             0.7071067811865476,0.7071067811865476,0, 0,0,1) | <2> 45 | <1> M3D(0,-1,0, 1,0,0, 0,0,1) \
+             | <2> 90",
+    ),
 ];
 
 struct Turning {
@@ -89,11 +95,5 @@ impl Function for Turning {
         Ok(())
     }
 
-    fn remembered(&self) -> Vec<Value> {
-        self.degrees.map(Value::Real).into_iter().collect()
-    }
-
-    fn recall(&mut self, state: &[Value]) -> bool {
-        restore(&mut self.degrees, None, state, |state| state.real().map(Some))
-    }
+    remembers_one!(degrees, Real, real);
 }

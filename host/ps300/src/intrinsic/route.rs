@@ -26,12 +26,18 @@ pub(super) const TABLE: &[Spec] = &[
     Spec::pure("PASSTHRU", &[ANY.times(Times::Size)], MANY, pass_one)
         .each()
         .sized(1, 127)
-        .says("Independent wires: a message at any input leaves at once on the output of the same number.")
+        .says(
+            "Independent wires: a message at any input leaves at once on the output of the same \
+             number.",
+        )
         .known(Confidence::Medium, "recollected")
         .example("(3) | <2> 1 | <3> 'x' -> <2> 1 | <3> 'x'"),
     Spec::pure("ROUTE", &[CHOICE, ANY], MANY, route)
         .sized(1, 127)
-        .says("Sends the value <2> on the output whose number is <1>. A number without output is reported.")
+        .says(
+            "Sends the value <2> on the output whose number is <1>. A number without output is \
+             reported.",
+        )
         .known(Confidence::Used, "D0 tablet networks")
         .example("(3) | <1> FIX(2) | <2> 'b' -> <2> 'b'"),
     Spec::pure("ROUTEC", &[CHOICE, STORED], MANY, route)
@@ -82,7 +88,10 @@ pub(super) const TABLE: &[Spec] = &[
     .example("(3) | <1> 'a' | <2> 'b' | <3> FIX(2) -> <1> 'b'"),
     Spec::pure("SYNC", &[ANY.times(Times::Size)], MANY, pass_all)
         .sized(2, 127)
-        .says("Waits until every input has a message, then sends each on the output of its number, in order.")
+        .says(
+            "Waits until every input has a message, then sends each on the output of its number, in \
+             order.",
+        )
         .known(Confidence::High, "recollected, with the range of sizes")
         .example("(2) | <2> 'b' | <2> 'd' | <1> 'a' -> <1> 'a' | <2> 'b'"),
 ];

@@ -17,8 +17,8 @@ pub(super) const TABLE: &[Spec] = &[
         send,
     )
     .says(
-        "Sends the value <1> to input <3> of whatever is named <2>, as the command SEND would. \
-                    A name that denotes nothing is reported.",
+        "Sends the value <1> to input <3> of whatever is named <2>, as the command SEND would. A \
+             name that denotes nothing is reported.",
     )
     .known(Confidence::Medium, "recollected")
     .example("n := F:NOP | <1> 4 | <2> 'n' | <3> FIX(1) -> <1>n 4"),

@@ -19,18 +19,21 @@ const SOURCE: &str = "name recollected; pins and behaviour ours";
 pub(super) const TABLE: &[Spec] = &[
     Spec::pure("COMP_STRING", &[TEXT, TEXT], &[TRUTH, TRUTH, TRUTH], compare)
         .says(
-            "Compares two strings character by character. Output <1> whether <1> comes before <2>, output <2> \
-             whether they are the same, output <3> whether <1> comes after.",
+            "Compares two strings character by character. Output <1> whether <1> comes before <2>, \
+             output <2> whether they are the same, output <3> whether <1> comes after.",
         )
         .known(Confidence::Low, SOURCE)
         .example("<1> 'arm' | <2> 'leg' -> <1> TRUE | <2> FALSE | <3> FALSE"),
     Spec::pure("SPLIT", &[TEXT, STORED], &[OUT, OUT, OUT], split)
         .says(
-            "Cuts <1> at the first delimiter <2>: output <1> what stands before, <2> the delimiter, <3> what stands \
-             behind. Without a delimiter in it the whole string leaves on output <1> alone. A delimiter of no \
-             characters is reported.",
+            "Cuts <1> at the first delimiter <2>: output <1> what stands before, <2> the delimiter, \
+             <3> what stands behind. Without a delimiter in it the whole string leaves on output <1> \
+             alone. A delimiter of no characters is reported.",
         )
-        .known(Confidence::Low, "recollected: a string cut in three; the rest ours")
+        .known(
+            Confidence::Low,
+            "recollected: a string cut in three; the rest ours",
+        )
         .example("<2> ': ' | <1> 'arm: 12' -> <1> 'arm' | <2> ': ' | <3> '12'"),
     Spec::pure(
         "TAKE_STRING",
@@ -43,8 +46,8 @@ pub(super) const TABLE: &[Spec] = &[
         take,
     )
     .says(
-        "The part of <1> that begins with character <2> and has <3> characters, or as many as there are. \
-         A first character below 1 or a count below 0 is reported.",
+        "The part of <1> that begins with character <2> and has <3> characters, or as many as \
+             there are. A first character below 1 or a count below 0 is reported.",
     )
     .known(Confidence::Low, SOURCE)
     .example("<2> FIX(3) | <3> FIX(4) | <1> 'upperarm' -> <1> 'pera'"),
@@ -63,15 +66,15 @@ pub(super) const TABLE: &[Spec] = &[
     .example("<2> 'per' | <3> FIX(3) | <1> 'uparm' -> <1> 'upperarm'"),
     Spec::pure("FIND_STRING", &[TEXT, STORED], &[WHOLE, TRUTH], find)
         .says(
-            "Looks for <2> in <1>. Output <1> the character it first begins with, 0 if it is nowhere; output <2> \
-             whether it was found.",
+            "Looks for <2> in <1>. Output <1> the character it first begins with, 0 if it is nowhere; \
+             output <2> whether it was found.",
         )
         .known(Confidence::Low, SOURCE)
         .example("<2> 'arm' | <1> 'upperarm' -> <1> FIX(6) | <2> TRUE"),
     Spec::pure("TRANS_STRING", &[TEXT, STORED, STORED], &[OUT], translate)
         .says(
-            "<1> with each character that occurs in <2> replaced by the one at the same place in <3>; characters of \
-             <2> without a fellow in <3> are left out.",
+            "<1> with each character that occurs in <2> replaced by the one at the same place in <3>; \
+             characters of <2> without a fellow in <3> are left out.",
         )
         .known(Confidence::Low, SOURCE)
         .example("<2> 'abc-' | <3> 'ABC' | <1> 'cab-12' -> <1> 'CAB12'"),
@@ -82,7 +85,10 @@ pub(super) const TABLE: &[Spec] = &[
         .example("(3) | <1> 'a' | <2> 'b' | <3> 'c' -> <1> 'abc'"),
     Spec::pure("CHARCONVERT", &[TEXT], &[WHOLE], codes)
         .says("The code of each character of a string, one message each, in order.")
-        .known(Confidence::Low, "recollected: characters to integers; the rest ours")
+        .known(
+            Confidence::Low,
+            "recollected: characters to integers; the rest ours",
+        )
         .example("<1> 'AB' -> <1> FIX(65) | <1> FIX(66)"),
     Spec::pure(
         "CHARMASK",
@@ -91,10 +97,13 @@ pub(super) const TABLE: &[Spec] = &[
         mask,
     )
     .says(
-        "<1> with the code of each character masked bit by bit by <2>, which lies between 0 and 255; other masks \
-         are reported.",
+        "<1> with the code of each character masked bit by bit by <2>, which lies between 0 and \
+             255; other masks are reported.",
     )
-    .known(Confidence::Low, "recollected: characters masked; the default, seven bits, ours")
+    .known(
+        Confidence::Low,
+        "recollected: characters masked; the default, seven bits, ours",
+    )
     .example("<2> FIX(223) | <1> 'arm' -> <1> 'ARM'"),
 ];
 

@@ -11,38 +11,64 @@ const STORED: InputSpec = InputSpec::constant(Kinds::STRING, Preset::Required);
 const OUT: &[OutputSpec] = &[OutputSpec::of(Kinds::STRING)];
 
 pub(super) const TABLE: &[Spec] = &[
-Spec::pure("PRINT", &[
+    Spec::pure(
+        "PRINT",
+        &[
             InputSpec::active(Kinds::ANY),
             InputSpec::constant(Kinds::BOOLEAN, Preset::Boolean(false)),
-        ], OUT, print)
-.says("The value as text: an integer as digits, a vector as V and its components with commas between, a matrix \
-         as M and its components row by row. The format switch <2> is taken and has no effect.")
-.known(Confidence::Used, "D0 tablet networks; what the switch did is not known")
-.example("<1> FIX(12) | <1> V2D(0.5,-1) | <1> TRUE | <1> 'x' -> <1> '12' | <1> 'V0.5,-1' | <1> 'TRUE' | <1> 'x'"),
-Spec::pure("CONCATENATE", &[TEXT, TEXT], OUT, concatenate)
-.says("<1> followed by <2>; at most 4096 bytes.")
-.known(Confidence::Used, "D0 tablet networks")
-.example("<1> 'a' | <2> 'b' -> <1> 'ab'"),
-Spec::pure("CONCATENATEC", &[TEXT, STORED], OUT, concatenate)
-.says("As CONCATENATE, <2> constant.")
-.known(Confidence::High, "recollected")
-.example("<2> 'b' | <1> 'a' -> <1> 'ab'"),
-Spec::pure("CCONCATENATE", &[STORED, TEXT], OUT, concatenate)
-.says("As CONCATENATE, <1> constant.")
-.known(Confidence::High, "recollected")
-.example("<1> 'a' | <2> 'b' -> <1> 'ab'"),
-Spec::pure("LENGTH_STRING", &[TEXT], &[OutputSpec::of(Kinds::INTEGER)], |i, o| {
+        ],
+        OUT,
+        print,
+    )
+    .says(
+        "The value as text: an integer as digits, a vector as V and its components with commas \
+             between, a matrix as M and its components row by row. The format switch <2> is taken and \
+             has no effect.",
+    )
+    .known(
+        Confidence::Used,
+        "D0 tablet networks; what the switch did is not known",
+    )
+    .example(
+        "<1> FIX(12) | <1> V2D(0.5,-1) | <1> TRUE | <1> 'x' -> <1> '12' | <1> 'V0.5,-1' | <1> \
+             'TRUE' | <1> 'x'",
+    ),
+    Spec::pure("CONCATENATE", &[TEXT, TEXT], OUT, concatenate)
+        .says("<1> followed by <2>; at most 4096 bytes.")
+        .known(Confidence::Used, "D0 tablet networks")
+        .example("<1> 'a' | <2> 'b' -> <1> 'ab'"),
+    Spec::pure("CONCATENATEC", &[TEXT, STORED], OUT, concatenate)
+        .says("As CONCATENATE, <2> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<2> 'b' | <1> 'a' -> <1> 'ab'"),
+    Spec::pure("CCONCATENATE", &[STORED, TEXT], OUT, concatenate)
+        .says("As CONCATENATE, <1> constant.")
+        .known(Confidence::High, "recollected")
+        .example("<1> 'a' | <2> 'b' -> <1> 'ab'"),
+    Spec::pure(
+        "LENGTH_STRING",
+        &[TEXT],
+        &[OutputSpec::of(Kinds::INTEGER)],
+        |i, o| {
             o.send(1, i.text(1)?.chars().count() as i32);
             Ok(())
-        })
-.says("The number of characters.")
-.known(Confidence::Low, "name recollected; pins ours")
-.example("<1> 'abc' -> <1> FIX(3)"),
-Spec::pure("STRING_TO_NUM", &[TEXT], &[OutputSpec::of(Kinds::REAL)], string_to_num)
-.says("The number a string spells, as a real; spaces around it do not matter. Anything else is reported and \
-         gives nothing.")
-.known(Confidence::Low, "name recollected; pins ours")
-        .example("<1> ' 1.5 ' -> <1> 1.5"),
+        },
+    )
+    .says("The number of characters.")
+    .known(Confidence::Low, "name recollected; pins ours")
+    .example("<1> 'abc' -> <1> FIX(3)"),
+    Spec::pure(
+        "STRING_TO_NUM",
+        &[TEXT],
+        &[OutputSpec::of(Kinds::REAL)],
+        string_to_num,
+    )
+    .says(
+        "The number a string spells, as a real; spaces around it do not matter. Anything else is \
+             reported and gives nothing.",
+    )
+    .known(Confidence::Low, "name recollected; pins ours")
+    .example("<1> ' 1.5 ' -> <1> 1.5"),
 ];
 
 fn print(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {

@@ -13,8 +13,9 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<Timeout>::default(),
 )
 .says(
-    "Passes each message on output <1>. When <2> hundredths of a second of network time have gone by without \
-     another, output <2> sends TRUE, once; the next message starts the watch again. An interval below 1 is reported.",
+    "Passes each message on output <1>. When <2> hundredths of a second of network time have \
+             gone by without another, output <2> sends TRUE, once; the next message starts the watch \
+             again. An interval below 1 is reported.",
 )
 .known(
     Confidence::Low,

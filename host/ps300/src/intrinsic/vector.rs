@@ -12,40 +12,66 @@ const EXTENDED: Kinds = Kinds::NUMBER.or(Kinds::of(&[Kind::Vector2, Kind::Vector
 const REAL: OutputSpec = OutputSpec::of(Kinds::REAL);
 
 pub(super) const TABLE: &[Spec] = &[
-Spec::pure("XVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::X))
-.says("The number on the x axis, zeros elsewhere.")
-.known(Confidence::Used, "D0 dial networks")
-.example("<1> 2 -> <1> V3D(2,0,0)"),
-Spec::pure("YVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::Y))
-.says("The number on the y axis, zeros elsewhere.")
-.known(Confidence::Used, "D0 dial networks")
-.example("<1> 2 -> <1> V3D(0,2,0)"),
-Spec::pure("ZVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::Z))
-.says("The number on the z axis, zeros elsewhere.")
-.known(Confidence::Used, "D0 dial networks")
-.example("<1> FIX(2) -> <1> V3D(0,0,2)"),
-Spec::pure("VEC", &[InputSpec::active(EXTENDED), InputSpec::active(Kinds::NUMBER)], &[OutputSpec::of(Kinds::VECTOR)], vec)
-.says("<1> extended by the number <2>: two numbers give a 2D vector, a 2D vector a 3D one, a 3D vector a 4D one.")
-.known(Confidence::Medium, "recollected")
-.example("<1> 1 | <2> 2 -> <1> V2D(1,2)"),
-Spec::pure("VECC", &[
+    Spec::pure("XVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::X))
+        .says("The number on the x axis, zeros elsewhere.")
+        .known(Confidence::Used, "D0 dial networks")
+        .example("<1> 2 -> <1> V3D(2,0,0)"),
+    Spec::pure("YVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::Y))
+        .says("The number on the y axis, zeros elsewhere.")
+        .known(Confidence::Used, "D0 dial networks")
+        .example("<1> 2 -> <1> V3D(0,2,0)"),
+    Spec::pure("ZVECTOR", AXIS_IN, AXIS_OUT, |i, o| axis(i, o, DVec3::Z))
+        .says("The number on the z axis, zeros elsewhere.")
+        .known(Confidence::Used, "D0 dial networks")
+        .example("<1> FIX(2) -> <1> V3D(0,0,2)"),
+    Spec::pure(
+        "VEC",
+        &[InputSpec::active(EXTENDED), InputSpec::active(Kinds::NUMBER)],
+        &[OutputSpec::of(Kinds::VECTOR)],
+        vec,
+    )
+    .says(
+        "<1> extended by the number <2>: two numbers give a 2D vector, a 2D vector a 3D one, a 3D \
+             vector a 4D one.",
+    )
+    .known(Confidence::Medium, "recollected")
+    .example("<1> 1 | <2> 2 -> <1> V2D(1,2)"),
+    Spec::pure(
+        "VECC",
+        &[
             InputSpec::active(EXTENDED),
-            InputSpec::constant(Kinds::NUMBER, Preset::Required)
-        ], &[OutputSpec::of(Kinds::VECTOR)], vec)
-.says("As VEC, <2> constant.")
-.known(Confidence::Medium, "recollected")
-.example("<2> 4 | <1> V3D(1,2,3) -> <1> V4D(1,2,3,4)"),
-Spec::pure("CVEC", &[
+            InputSpec::constant(Kinds::NUMBER, Preset::Required),
+        ],
+        &[OutputSpec::of(Kinds::VECTOR)],
+        vec,
+    )
+    .says("As VEC, <2> constant.")
+    .known(Confidence::Medium, "recollected")
+    .example("<2> 4 | <1> V3D(1,2,3) -> <1> V4D(1,2,3,4)"),
+    Spec::pure(
+        "CVEC",
+        &[
             InputSpec::constant(EXTENDED, Preset::Required),
-            InputSpec::active(Kinds::NUMBER)
-        ], &[OutputSpec::of(Kinds::VECTOR)], vec)
-.says("As VEC, <1> constant.")
-.known(Confidence::Medium, "recollected")
-.example("<1> 1 | <2> 2 -> <1> V2D(1,2)"),
-Spec::pure("PARTS", &[InputSpec::active(Kinds::VECTOR)], &[REAL, REAL, REAL, REAL], parts)
-.says("The components of a vector, one on each output, in order; outputs beyond its dimension stay silent.")
-.known(Confidence::Medium, "recollected")
-.example("<1> V3D(1,2,3) -> <1> 1 | <2> 2 | <3> 3"),
+            InputSpec::active(Kinds::NUMBER),
+        ],
+        &[OutputSpec::of(Kinds::VECTOR)],
+        vec,
+    )
+    .says("As VEC, <1> constant.")
+    .known(Confidence::Medium, "recollected")
+    .example("<1> 1 | <2> 2 -> <1> V2D(1,2)"),
+    Spec::pure(
+        "PARTS",
+        &[InputSpec::active(Kinds::VECTOR)],
+        &[REAL, REAL, REAL, REAL],
+        parts,
+    )
+    .says(
+        "The components of a vector, one on each output, in order; outputs beyond its dimension \
+             stay silent.",
+    )
+    .known(Confidence::Medium, "recollected")
+    .example("<1> V3D(1,2,3) -> <1> 1 | <2> 2 | <3> 3"),
 ];
 
 fn axis(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>, along: DVec3) -> Result<(), Fault> {

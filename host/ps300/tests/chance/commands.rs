@@ -64,7 +64,20 @@ pub(crate) const LIVELY: [&str; 16] = [
     "SINCOS",
 ];
 /// Likewise, with a memory.
-pub(crate) const REMEMBERING: [&str; 5] = ["ACCUMULATE", "DELTA", "DSCALE", "AVERAGE", "DXROTATE"];
+pub(crate) const REMEMBERING: [&str; 12] = [
+    "ACCUMULATE",
+    "DELTA",
+    "DSCALE",
+    "AVERAGE",
+    "DXROTATE",
+    "TIMEOUT",
+    "DR_SLEW",
+    "DR_LAG",
+    "DR_COUNTER",
+    "DR_RECORDER",
+    "DR_RANDOM",
+    "DR_CHANGE",
+];
 
 pub(crate) fn definition(dice: Dice) -> String {
     let specs: Vec<_> = intrinsic::table().collect();

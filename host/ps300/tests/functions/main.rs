@@ -5,6 +5,7 @@
 mod dice;
 mod memory;
 mod rows;
+mod time;
 mod trial;
 
 use dice::Dice;

@@ -1,6 +1,6 @@
 //! `dialrig net functions`: the reference table, from the rows the network itself runs by.
 
-use ps300::intrinsic::{self, ABSENT, Absent, InputSpec, OutputSpec, Preset, Spec, Times};
+use ps300::intrinsic::{self, ABSENT, Absent, FAMILIES, Family, InputSpec, OutputSpec, Preset, Spec, Times};
 use ps300::value::Kinds;
 use serde::Serialize;
 
@@ -32,6 +32,9 @@ pub(super) struct Args {
 #[derive(Serialize)]
 struct FunctionRecord {
     name: &'static str,
+    /// The heading it stands under in the reference; of today's functions "Functions of today".
+    #[serde(skip_serializing_if = "str::is_empty")]
+    family: &'static str,
     inputs: Vec<InputRecord>,
     outputs: Vec<OutputRecord>,
     behaviour: &'static str,
@@ -109,6 +112,7 @@ fn bare(name: &str) -> &str {
 fn record(spec: &Spec) -> FunctionRecord {
     FunctionRecord {
         name: spec.name,
+        family: family(spec),
         inputs: (1..).zip(spec.inputs).map(input_record).collect(),
         outputs: (1..).zip(spec.outputs).map(output_record).collect(),
         behaviour: spec.behaviour,
@@ -119,6 +123,11 @@ fn record(spec: &Spec) -> FunctionRecord {
         absent: false,
         why: "",
     }
+}
+
+fn family(spec: &Spec) -> &'static str {
+    let holds = |family: &&Family| family.functions().any(|other| other.name == spec.name);
+    FAMILIES.iter().find(holds).map_or("", |family| family.title)
 }
 
 fn input_record((number, input): (usize, &InputSpec)) -> InputRecord {
@@ -149,6 +158,7 @@ fn output_record((number, output): (usize, &OutputSpec)) -> OutputRecord {
 fn absent_record(absent: &Absent) -> FunctionRecord {
     FunctionRecord {
         name: absent.name,
+        family: "",
         inputs: Vec::new(),
         outputs: Vec::new(),
         behaviour: absent.purpose,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use ps300::intrinsic::{self, ABSENT, InputSpec, Preset, Spec, Times};
+use ps300::intrinsic::{ABSENT, FAMILIES, InputSpec, Preset, Spec, Times};
 use ps300::machine::devices::{READOUTS, SOURCES};
 
 const HEAD: &str = "\
@@ -45,8 +45,17 @@ These existed and cannot be run.
 /// The whole page.
 pub(super) fn page() -> String {
     let mut page = String::from(HEAD);
-    for spec in intrinsic::table() {
-        function(&mut page, spec);
+    for family in FAMILIES {
+        let links = family
+            .functions()
+            .map(|spec| format!("[{0}](#{1})", spec.name, anchor(spec)));
+        let links = links.collect::<Vec<_>>().join(", ");
+        // Writing to a string cannot fail.
+        let _ = writeln!(page, "\n{}: {links}.", family.title);
+    }
+    for family in FAMILIES {
+        let _ = writeln!(page, "\n## {}", family.title);
+        family.functions().for_each(|spec| function(&mut page, spec));
     }
     page.push_str(DEVICES);
     for source in &SOURCES {
@@ -86,12 +95,8 @@ fn row(page: &mut String, cells: &[&str]) {
 }
 
 fn function(page: &mut String, spec: &Spec) {
-    let size = match spec.sizes {
-        Some((least, most)) => format!("(n), n from {least} to {most}"),
-        None => String::new(),
-    };
     // Writing to a string cannot fail, here and below.
-    let _ = writeln!(page, "\n## {}{size}\n\n{}\n", spec.name, escaped(spec.behaviour));
+    let _ = writeln!(page, "\n### {}\n\n{}\n", heading(spec), escaped(spec.behaviour));
     let mut range = Range::default();
     for input in spec.inputs {
         let number = escaped(&range.next(input.times));
@@ -129,6 +134,20 @@ fn example(spec: &Spec) -> String {
     }
     let _ = writeln!(text, "{{ {} }}", messages.replace(" | ", ", "));
     text
+}
+
+/// The name, with the sizes of a sized type.
+fn heading(spec: &Spec) -> String {
+    match spec.sizes {
+        Some((least, most)) => format!("{}(n), n from {least} to {most}", spec.name),
+        None => spec.name.to_owned(),
+    }
+}
+
+/// Where a page of Markdown puts a heading: small letters, hyphens for spaces, no other signs.
+fn anchor(spec: &Spec) -> String {
+    let heading = heading(spec).to_lowercase().replace(' ', "-");
+    heading.replace(['(', ')', ','], "")
 }
 
 fn mark(input: &InputSpec) -> &'static str {

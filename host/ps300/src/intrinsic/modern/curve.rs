@@ -11,26 +11,26 @@ const POINT: Kinds = Kinds::of(&[Kind::Vector2]);
 
 pub(super) const TABLE: &[Spec] = &[Spec::pure(
     "DR_CURVE",
-    &[
-        NUMBER,
-        truth(true),
-        InputSpec::required(POINT).times(Times::Size),
-    ],
+    &[NUMBER, truth(true), InputSpec::required(POINT).times(Times::Size)],
     &[REAL_OUT],
     curve,
 )
 .sized(2, 125)
 .says(
-    "The height at <1> of the curve through n points, the inputs from <3> on, whose x grows from each to the next. \
-     With <2> TRUE smooth and without a rise or dip between points that rise or fall; with FALSE straight from \
-     point to point. Before the first point and after the last it is level. Points out of order are reported.",
+    "The height at <1> of the curve through n points, the inputs from <3> on, whose x grows \
+             from each to the next. With <2> TRUE smooth and without a rise or dip between points \
+             that rise or fall; with FALSE straight from point to point. Before the first point and \
+             after the last it is level. Points out of order are reported.",
 )
 .known(
     Confidence::Project,
-    "slopes: F. N. Fritsch, J. Butland, A Method for Constructing Local Monotone Piecewise Cubic Interpolants, 1984; \
-     at the ends those of the chords",
+    "slopes: F. N. Fritsch, J. Butland, A Method for Constructing Local Monotone Piecewise \
+             Cubic Interpolants, 1984; at the ends those of the chords",
 )
-.example("(3) | <2> FALSE | <3> V2D(0,0) | <4> V2D(0.5,0.1) | <5> V2D(1,1) | <1> 0.25 | <1> 0.75 -> <1> 0.05 | <1> 0.55")];
+.example(
+    "(3) | <2> FALSE | <3> V2D(0,0) | <4> V2D(0.5,0.1) | <5> V2D(1,1) | <1> 0.25 | <1> 0.75 \
+             -> <1> 0.05 | <1> 0.55",
+)];
 
 /// The input of the first point.
 const FIRST: u8 = 3;

@@ -2,7 +2,7 @@
 
 use super::super::function::{Fault, Function, Inputs, Outputs, domain};
 use super::super::numbers::integer;
-use super::super::recalled::restore;
+use super::super::recalled::remembers_one;
 use super::super::spec::{Confidence, InputSpec, OutputSpec, Preset, Spec};
 use super::{BOOLEAN_OUT, NUMBER, OURS, TRIGGER, real, truth};
 use crate::value::{Kinds, Value};
@@ -11,23 +11,26 @@ const WHOLE: OutputSpec = OutputSpec::of(Kinds::INTEGER);
 const LIMIT: InputSpec = InputSpec::constant(Kinds::INTEGER, Preset::Rule("unbounded"));
 
 pub(super) const TABLE: &[Spec] = &[
-    Spec::stateful(
-        "DR_EDGE",
-        &[NUMBER, real(0.5), real(0.0)],
-        &[BOOLEAN_OUT],
-        |_| Box::<Edge>::default(),
-    )
+    Spec::stateful("DR_EDGE", &[NUMBER, real(0.5), real(0.0)], &[BOOLEAN_OUT], |_| {
+        Box::<Edge>::default()
+    })
     .says(
-        "TRUE when <1> reaches the threshold <2>, FALSE when it falls below; once each. <3> is the width of a band \
-         around the threshold that it has to leave on the other side. The first message sends its side. A negative \
-         width is reported.",
+        "TRUE when <1> reaches the threshold <2>, FALSE when it falls below; once each. <3> is \
+             the width of a band around the threshold that it has to leave on the other side. The \
+             first message sends its side. A negative width is reported.",
     )
     .known(Confidence::Project, "ours; O. H. Schmitt's trigger, 1938")
-    .example("<3> 0.2 | <1> 0 | <1> 0.55 | <1> 0.65 | <1> 0.45 | <1> 0.35 -> <1> FALSE | <1> TRUE | <1> FALSE"),
+    .example(
+        "<3> 0.2 | <1> 0 | <1> 0.55 | <1> 0.65 | <1> 0.45 | <1> 0.35 -> <1> FALSE | <1> TRUE | \
+             <1> FALSE",
+    ),
     Spec::stateful("DR_TOGGLE", &[TRIGGER, truth(false)], &[BOOLEAN_OUT], |_| {
         Box::<Toggle>::default()
     })
-    .says("Each message turns TRUE to FALSE and back, beginning from <2>. Sending <2> starts anew without sending.")
+    .says(
+        "Each message turns TRUE to FALSE and back, beginning from <2>. Sending <2> starts anew \
+             without sending.",
+    )
     .known(Confidence::Project, OURS)
     .example("<1> FIX(3) | <1> FIX(3) | <1> FIX(3) -> <1> TRUE | <1> FALSE | <1> TRUE"),
     Spec::stateful(
@@ -47,13 +50,17 @@ pub(super) const TABLE: &[Spec] = &[
     )
     .each()
     .says(
-        "Counts: a message at <1> adds <5>, one at <2> takes it away, one at <3> goes back to the start <4>; each \
-         sends the count on output <1>. It stays between the lower limit <7> and the upper limit <6>, or, with <8> \
-         TRUE, goes on at the other one; output <2> sends TRUE when it would have left them. Sending <4> starts anew \
-         without sending. Limits the wrong way round are reported, and so is a count beyond 32 bits.",
+        "Counts: a message at <1> adds <5>, one at <2> takes it away, one at <3> goes back to the \
+             start <4>; each sends the count on output <1>. It stays between the lower limit <7> and \
+             the upper limit <6>, or, with <8> TRUE, goes on at the other one; output <2> sends TRUE \
+             when it would have left them. Sending <4> starts anew without sending. Limits the wrong \
+             way round are reported, and so is a count beyond 32 bits.",
     )
     .known(Confidence::Project, OURS)
-    .example("<6> FIX(2) | <7> FIX(0) | <8> TRUE | <1> 'x' | <1> 'x' | <1> 'x' -> <1> FIX(1) | <1> FIX(2) | <1> FIX(0) | <2> TRUE"),
+    .example(
+        "<6> FIX(2) | <7> FIX(0) | <8> TRUE | <1> 'x' | <1> 'x' | <1> 'x' -> <1> FIX(1) | <1> \
+             FIX(2) | <1> FIX(0) | <2> TRUE",
+    ),
     Spec::stateful(
         "DR_UNWRAP",
         &[NUMBER, real(360.0)],
@@ -61,9 +68,10 @@ pub(super) const TABLE: &[Spec] = &[
         |_| Box::<Unwrap>::default(),
     )
     .says(
-        "An angle or count that begins again at every period <2> as one that goes on: each step is the shortest, half \
-         a period counts as forwards. The first message passes as it is. Integers give an integer. A period that is \
-         not positive is reported, and so is a sum beyond 32 bits.",
+        "An angle or count that begins again at every period <2> as one that goes on: each step \
+             is the shortest, half a period counts as forwards. The first message passes as it is. \
+             Integers give an integer. A period that is not positive is reported, and so is a sum \
+             beyond 32 bits.",
     )
     .known(Confidence::Project, OURS)
     .example("<1> 350 | <1> 10 | <1> 340 -> <1> 350 | <1> 370 | <1> 340"),
@@ -91,13 +99,7 @@ impl Function for Edge {
         Ok(())
     }
 
-    fn remembered(&self) -> Vec<Value> {
-        self.above.map(Value::Boolean).into_iter().collect()
-    }
-
-    fn recall(&mut self, state: &[Value]) -> bool {
-        restore(&mut self.above, None, state, |state| state.boolean().map(Some))
-    }
+    remembers_one!(above, Boolean, boolean);
 }
 
 #[derive(Default)]
@@ -120,13 +122,7 @@ impl Function for Toggle {
         Ok(())
     }
 
-    fn remembered(&self) -> Vec<Value> {
-        self.state.map(Value::Boolean).into_iter().collect()
-    }
-
-    fn recall(&mut self, state: &[Value]) -> bool {
-        restore(&mut self.state, None, state, |state| state.boolean().map(Some))
-    }
+    remembers_one!(state, Boolean, boolean);
 }
 
 #[derive(Default)]
@@ -182,13 +178,7 @@ impl Function for Counter {
         Ok(())
     }
 
-    fn remembered(&self) -> Vec<Value> {
-        self.count.map(Value::Integer).into_iter().collect()
-    }
-
-    fn recall(&mut self, state: &[Value]) -> bool {
-        restore(&mut self.count, None, state, |state| state.integer().map(Some))
-    }
+    remembers_one!(count, Integer, integer);
 }
 
 #[derive(Default)]
@@ -223,11 +213,5 @@ impl Function for Unwrap {
         Ok(())
     }
 
-    fn remembered(&self) -> Vec<Value> {
-        self.sum.map(Value::Real).into_iter().collect()
-    }
-
-    fn recall(&mut self, state: &[Value]) -> bool {
-        restore(&mut self.sum, None, state, |state| state.real().map(Some))
-    }
+    remembers_one!(sum, Real, real);
 }

@@ -6,23 +6,22 @@ use super::super::function::{Fault, Inputs, Outputs, domain};
 use super::super::spec::{Confidence, Spec};
 use super::{NUMBER, REAL_OUT, text};
 
-pub(super) const TABLE: &[Spec] = &[Spec::pure(
-    "DR_EASE",
-    &[NUMBER, text("in_out_cubic")],
-    &[REAL_OUT],
-    ease,
-)
-.says(
-    "The course named <2> at <1>, which is taken to lie between 0 and 1: 'linear', 'smoothstep', 'smootherstep', or \
-     'in_', 'out_' or 'in_out_' before 'sine', 'quad', 'cubic', 'quart', 'quint', 'expo', 'circ', 'back', 'elastic', \
-     'bounce'. 'in' begins softly, 'out' ends softly. Other names are reported.",
-)
-.known(
-    Confidence::Project,
-    "R. Penner, Programming Macromedia Flash MX, 2002, chapter 7, his constants; each 'out' and 'in_out' is its 'in' \
-     turned round; smootherstep K. Perlin 2002",
-)
-.example("<1> 0.25 | <2> 'out_quad' | <1> 0.25 -> <1> 0.0625 | <1> 0.4375")];
+pub(super) const TABLE: &[Spec] =
+    &[
+        Spec::pure("DR_EASE", &[NUMBER, text("in_out_cubic")], &[REAL_OUT], ease)
+            .says(
+                "The course named <2> at <1>, which is taken to lie between 0 and 1: 'linear', \
+             'smoothstep', 'smootherstep', or 'in_', 'out_' or 'in_out_' before 'sine', 'quad', \
+             'cubic', 'quart', 'quint', 'expo', 'circ', 'back', 'elastic', 'bounce'. 'in' begins \
+             softly, 'out' ends softly. Other names are reported.",
+            )
+            .known(
+                Confidence::Project,
+                "R. Penner, Programming Macromedia Flash MX, 2002, chapter 7, his constants; each 'out' \
+             and 'in_out' is its 'in' turned round; smootherstep K. Perlin 2002",
+            )
+            .example("<1> 0.25 | <2> 'out_quad' | <1> 0.25 -> <1> 0.0625 | <1> 0.4375"),
+    ];
 
 fn ease(inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
     let easing = Easing::named(inputs.text(2)?)?;

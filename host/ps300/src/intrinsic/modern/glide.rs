@@ -16,9 +16,10 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<Glide>::default(),
 )
 .says(
-    "Goes from where it is to <1> in <2> seconds, by the course <3>, one of those of DR_EASE. Output <1> at every \
-     tick on the way, the last exactly <1>; output <2> TRUE on arrival. A message on the way sets out anew from \
-     there. The first message passes at once. A negative time or an unknown course is reported and nothing moves.",
+    "Goes from where it is to <1> in <2> seconds, by the course <3>, one of those of DR_EASE. \
+             Output <1> at every tick on the way, the last exactly <1>; output <2> TRUE on arrival. A \
+             message on the way sets out anew from there. The first message passes at once. A \
+             negative time or an unknown course is reported and nothing moves.",
 )
 .known(Confidence::Project, OURS)
 .example("<2> 2 | <3> 'in_quad' | <1> 0 | <1> 8 | @1 | @2 -> <1> 0 | <1> 2 | <1> 8 | <2> TRUE")];

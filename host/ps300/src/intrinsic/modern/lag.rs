@@ -15,16 +15,21 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<Lag>::default(),
 )
 .says(
-    "Follows <1> as if drawn by a spring: <2> is its time constant in seconds, after four of which hardly anything \
-     is left to go; <3> its damping, 1 for none too far, less for swinging beyond and back, more for creeping. Sent \
-     at every tick until it rests. The first message passes at once. A time constant that is not positive or a \
-     negative damping is reported, and it stands still.",
+    "Follows <1> as if drawn by a spring: <2> is its time constant in seconds, after four of \
+             which hardly anything is left to go; <3> its damping, 1 for none too far, less for \
+             swinging beyond and back, more for creeping. Sent at every tick until it rests. The \
+             first message passes at once. A time constant that is not positive or a negative damping \
+             is reported, and it stands still.",
 )
 .known(
     Confidence::Project,
-    "ours; the exact solution of a damped spring, so that the division into ticks does not matter",
+    "ours; the exact solution of a damped spring, so that the division into ticks does not \
+             matter",
 )
-.example("<2> 1 | <1> 0 | <1> 1 | @1 | @2 -> <1> 0 | <1> 0.2642411176571153 | <1> 0.5939941502901616")];
+.example(
+    "<2> 1 | <1> 0 | <1> 1 | @1 | @2 -> <1> 0 | <1> 0.2642411176571153 | <1> \
+             0.5939941502901616",
+)];
 
 /// Both what is left to go and the way made in one time constant are below this share: it rests.
 const REST: f64 = 1e-6;

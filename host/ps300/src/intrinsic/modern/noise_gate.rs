@@ -14,15 +14,19 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<NoiseGate>::default(),
 )
 .says(
-    "Passes a number that lies further than <2> from the last one passed, and then every one, until they have \
-     stayed within <3> of each other for <4> seconds; then it is shut again. The first passes always. Negative \
-     distances or times, or <3> above <2>, are reported.",
+    "Passes a number that lies further than <2> from the last one passed, and then every one, \
+             until they have stayed within <3> of each other for <4> seconds; then it is shut again. \
+             The first passes always. Negative distances or times, or <3> above <2>, are reported.",
 )
 .known(
     Confidence::Project,
-    "ours; the distance of 2.5 % is the middle one of deej's (omriharel/deej, noise reduction)",
+    "ours; the distance of 2.5 % is the middle one of deej's (omriharel/deej, noise \
+             reduction)",
 )
-.example("<2> 0.1 | <3> 0.01 | <1> 0 | <1> 0.05 | <1> 0.2 | <1> 0.25 | @1 | <1> 0.25 | <1> 0.3 -> <1> 0 | <1> 0.2 | <1> 0.25 | <1> 0.25")];
+.example(
+    "<2> 0.1 | <3> 0.01 | <1> 0 | <1> 0.05 | <1> 0.2 | <1> 0.25 | @1 | <1> 0.25 | <1> 0.3 -> \
+             <1> 0 | <1> 0.2 | <1> 0.25 | <1> 0.25",
+)];
 
 #[derive(Default)]
 struct NoiseGate {

@@ -17,17 +17,21 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<OneEuro>::default(),
 )
 .says(
-    "Smooths a jittering stream: a low pass whose cutoff is <2> hertz at rest and grows by <3> for each unit a \
-     second of speed; the speed is itself smoothed with the cutoff <4>. First lower <2> until a resting hand is \
-     still, then raise <3> until a fast one is not late. Of several messages at one time the last counts. Cutoffs \
-     that are not positive are reported.",
+    "Smooths a jittering stream: a low pass whose cutoff is <2> hertz at rest and grows by \
+             <3> for each unit a second of speed; the speed is itself smoothed with the cutoff <4>. \
+             First lower <2> until a resting hand is still, then raise <3> until a fast one is not \
+             late. Of several messages at one time the last counts. Cutoffs that are not positive are \
+             reported.",
 )
 .known(
     Confidence::Project,
-    "G. Casiez, N. Roussel, D. Vogel, 1 Euro Filter, CHI 2012, algorithm 1; for vectors component by component; \
-     <2>, <4> 1 Hz as there, <3> 0 where tuning begins",
+    "G. Casiez, N. Roussel, D. Vogel, 1 Euro Filter, CHI 2012, algorithm 1; for vectors \
+             component by component; <2>, <4> 1 Hz as there, <3> 0 where tuning begins",
 )
-.example("@0 | <1> 0 | @0.1 | <1> 1 | @0.2 | <1> 1 -> <1> 0 | <1> 0.3858695450950375 | <1> 0.6228437843582239")];
+.example(
+    "@0 | <1> 0 | @0.1 | <1> 1 | @0.2 | <1> 1 -> <1> 0 | <1> 0.3858695450950375 | <1> \
+             0.6228437843582239",
+)];
 
 #[derive(Default)]
 struct OneEuro {

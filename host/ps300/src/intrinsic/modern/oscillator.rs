@@ -23,8 +23,10 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<Oscillator>::default(),
 )
 .says(
-    "At every tick while <6> is TRUE: <3> plus <2> times a wave of <1> hertz between -1 and 1, <4> degrees ahead. \
-     <5> names the wave: 'sine' and 'triangle' begin at 0 and rise, 'square' begins at 1, 'saw' at -1. A change of frequency makes no jump. Other waves are reported.",
+    "At every tick while <6> is TRUE: <3> plus <2> times a wave of <1> hertz between -1 and \
+             1, <4> degrees ahead. <5> names the wave: 'sine' and 'triangle' begin at 0 and rise, \
+             'square' begins at 1, 'saw' at -1. A change of frequency makes no jump. Other waves are \
+             reported.",
 )
 .known(Confidence::Project, OURS)
 .example("<1> 0.5 | <2> 10 | <3> 100 | @0.5 | @1.5 -> <1> 110 | <1> 90")];

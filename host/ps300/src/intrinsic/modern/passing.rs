@@ -30,8 +30,8 @@ pub(super) const TABLE: &[Spec] = &[
     )
     .each()
     .says(
-        "Passes <1>. TRUE at <2> holds it: nothing leaves until FALSE at <2>, which sends the newest of what came \
-         meanwhile, if anything did. Either input sets it off by itself.",
+        "Passes <1>. TRUE at <2> holds it: nothing leaves until FALSE at <2>, which sends the \
+             newest of what came meanwhile, if anything did. Either input sets it off by itself.",
     )
     .known(Confidence::Project, OURS)
     .example("<1> 1 | <2> TRUE | <1> 2 | <1> 3 | <2> FALSE | <1> 4 -> <1> 1 | <1> 3 | <1> 4"),
@@ -46,8 +46,9 @@ pub(super) const TABLE: &[Spec] = &[
         |_| Box::<Delay>::default(),
     )
     .says(
-        "Passes each message <2> seconds after it came, at the first tick then, and none before those that came \
-         before. A negative time is reported, and so are messages beyond the 4096 it keeps; these are dropped.",
+        "Passes each message <2> seconds after it came, at the first tick then, and none before \
+             those that came before. A negative time is reported, and so are messages beyond the 4096 \
+             it keeps; these are dropped.",
     )
     .known(Confidence::Project, OURS)
     .example("<2> 0.5 | <1> 'a' | @0.3 | <1> 'b' | @0.5 | @1 -> <1> 'a' | <1> 'b'"),

@@ -30,18 +30,24 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<Pickup>::default(),
 )
 .says(
-    "Lets an absolute control <1> set a value that others change too: they tell it at <2>, and output <1> is the \
-     value it sets, between <6> and <5>. By the way <3> names: 'pickup', it takes hold once it comes within <4> of \
-     the range of the value, or passes it quicker than <7> seconds after it last held it; 'scale', the value goes \
-     with it so that both reach the end of the range together; 'relative', it goes as far as the control; 'jump', \
-     it goes to the control. The first message never sets a value, save with 'jump'. Output <2> whether the control \
-     has hold, when that changes. An empty range or an unknown way is reported.",
+    "Lets an absolute control <1> set a value that others change too: they tell it at <2>, \
+             and output <1> is the value it sets, between <6> and <5>. By the way <3> names: \
+             'pickup', it takes hold once it comes within <4> of the range of the value, or passes it \
+             quicker than <7> seconds after it last held it; 'scale', the value goes with it so that \
+             both reach the end of the range together; 'relative', it goes as far as the control; \
+             'jump', it goes to the control. The first message never sets a value, save with 'jump'. \
+             Output <2> whether the control has hold, when that changes. An empty range or an unknown \
+             way is reported.",
 )
 .known(
     Confidence::Project,
-    "pick-up, its distance and time: Mixxx, src/controllers/softtakeover.cpp; the other ways usual in controllers",
+    "pick-up, its distance and time: Mixxx, src/controllers/softtakeover.cpp; the other ways \
+             usual in controllers",
 )
-.example("<2> 0.5 | <1> 0 | <1> 0.3 | <1> 0.49 | <1> 0.6 -> <2> FALSE | <1> 0.49 | <2> TRUE | <1> 0.6")];
+.example(
+    "<2> 0.5 | <1> 0 | <1> 0.3 | <1> 0.49 | <1> 0.6 -> <2> FALSE | <1> 0.49 | <2> TRUE | <1> \
+             0.6",
+)];
 
 #[derive(Default)]
 struct Pickup {

@@ -18,15 +18,18 @@ pub(super) const TABLE: &[Spec] = &[
         |_| Box::<Random>::default(),
     )
     .says(
-        "Every message at <1> sends a number by chance from <2> to <3>: a real below <3>, or, where both are \
-         integers, one of those and all between. The same seed <4> gives the same sequence; sending it begins anew. \
-         <3> below <2> is reported.",
+        "Every message at <1> sends a number by chance from <2> to <3>: a real below <3>, or, \
+             where both are integers, one of those and all between. The same seed <4> gives the same \
+             sequence; sending it begins anew. <3> below <2> is reported.",
     )
     .known(
         Confidence::Project,
         "ours; generator SplitMix64: G. Steele, D. Lea, C. Flood, OOPSLA 2014",
     )
-    .example("<2> FIX(1) | <3> FIX(6) | <1> TRUE | <1> TRUE | <1> TRUE -> <1> FIX(4) | <1> FIX(5) | <1> FIX(6)"),
+    .example(
+        "<2> FIX(1) | <3> FIX(6) | <1> TRUE | <1> TRUE | <1> TRUE -> <1> FIX(4) | <1> FIX(5) | \
+             <1> FIX(6)",
+    ),
     Spec::clock(
         "DR_NOISE",
         &[real(1.0), real(1.0), real(0.0), SEED, truth(true)],
@@ -34,9 +37,9 @@ pub(super) const TABLE: &[Spec] = &[
         |_| Box::<Noise>::default(),
     )
     .says(
-        "At every tick while <5> is TRUE: <3> plus at most <2> of smooth noise that wavers about <1> times a second: \
-         the tremble of something alive. The same seed <4> gives the same course; it passes through <3> <1> times a \
-         second.",
+        "At every tick while <5> is TRUE: <3> plus at most <2> of smooth noise that wavers about \
+             <1> times a second: the tremble of something alive. The same seed <4> gives the same \
+             course; it passes through <3> <1> times a second.",
     )
     .known(
         Confidence::Project,

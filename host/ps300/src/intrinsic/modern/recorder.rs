@@ -21,14 +21,18 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
 )
 .each()
 .says(
-    "TRUE at <2> forgets what was kept and keeps what comes to <1> from now on, with its times, until FALSE at <2>. \
-     TRUE at <3> plays it from the beginning, <5> times as fast, until FALSE at <3> or its end, at which output <2> \
-     sends TRUE; with <4> TRUE it begins again there. Output <1> what is played, and while nothing is, <1> as it \
-     comes; while it plays, <1> is dropped. Messages beyond 16384 are reported and not kept; a negative \
-     speed is reported and nothing is played.",
+    "TRUE at <2> forgets what was kept and keeps what comes to <1> from now on, with its \
+             times, until FALSE at <2>. TRUE at <3> plays it from the beginning, <5> times as fast, \
+             until FALSE at <3> or its end, at which output <2> sends TRUE; with <4> TRUE it begins \
+             again there. Output <1> what is played, and while nothing is, <1> as it comes; while it \
+             plays, <1> is dropped. Messages beyond 16384 are reported and not kept; a negative speed \
+             is reported and nothing is played.",
 )
 .known(Confidence::Project, OURS)
-.example("<2> TRUE | <1> 1 | @0.5 | <1> 2 | @1 | <2> FALSE | <3> TRUE | @1.4 | @1.5 | @2 -> <1> 1 | <1> 2 | <1> 1 | <1> 2 | <2> TRUE")];
+.example(
+    "<2> TRUE | <1> 1 | @0.5 | <1> 2 | @1 | <2> FALSE | <3> TRUE | @1.4 | @1.5 | @2 -> <1> 1 \
+             | <1> 2 | <1> 1 | <1> 2 | <2> TRUE",
+)];
 
 /// As many messages as one recording has at most: at 60 a second some four minutes.
 const KEPT_MAX: usize = 16384;

@@ -13,8 +13,9 @@ pub(super) const TABLE: &[Spec] = &[
         map,
     )
     .says(
-        "The number carried from the range <2> to <3> over to the range <4> to <5>, in which it stays while <6> is \
-         TRUE. Ranges may run downwards; a first range of no width is reported.",
+        "The number carried from the range <2> to <3> over to the range <4> to <5>, in which it \
+             stays while <6> is TRUE. Ranges may run downwards; a first range of no width is \
+             reported.",
     )
     .known(Confidence::Project, OURS)
     .example("<2> -1 | <3> 1 | <4> 0 | <5> 180 | <1> 0 | <1> 3 -> <1> 90 | <1> 180"),
@@ -25,13 +26,17 @@ pub(super) const TABLE: &[Spec] = &[
         deadzone,
     )
     .says(
-        "How far the number lies from the centre <3>, 0 within <2> of it; beyond, growing without a jump, so that at \
-         the distance <4> it is <4>. <4> not above <2>, or a negative <2>, is reported.",
+        "How far the number lies from the centre <3>, 0 within <2> of it; beyond, growing without \
+             a jump, so that at the distance <4> it is <4>. <4> not above <2>, or a negative <2>, is \
+             reported.",
     )
     .known(Confidence::Project, OURS)
     .example("<2> 0.2 | <1> 0.1 | <1> 0.6 | <1> -1 -> <1> 0 | <1> 0.5 | <1> -1"),
     Spec::pure("DR_SNAP", &[NUMBER, real(1.0), real(0.0)], &[REAL_OUT], snap)
-        .says("The nearest of the numbers that lie a multiple of <2> from <3>. A step that is not positive is reported.")
+        .says(
+            "The nearest of the numbers that lie a multiple of <2> from <3>. A step that is not \
+             positive is reported.",
+        )
         .known(Confidence::Project, OURS)
         .example("<2> 15 | <1> 52 | <1> 53 -> <1> 45 | <1> 60"),
     Spec::pure(

@@ -19,9 +19,10 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<Slew>::default(),
 )
 .says(
-    "Follows <1> no faster than <2> a second; a number falls no faster than <3> a second. A vector goes straight, \
-     <2> being its speed. Sent at every tick while it moves. The first message passes at once, and so does each \
-     while <2> is not set. Negative rates are reported; then it stands still.",
+    "Follows <1> no faster than <2> a second; a number falls no faster than <3> a second. A \
+             vector goes straight, <2> being its speed. Sent at every tick while it moves. The first \
+             message passes at once, and so does each while <2> is not set. Negative rates are \
+             reported; then it stands still.",
 )
 .known(Confidence::Project, OURS)
 .example("<2> 2 | <1> 0 | <1> 1 | @0.25 | @1 -> <1> 0 | <1> 0.5 | <1> 1")];
