@@ -27,9 +27,9 @@ const ROUNDS: usize = 21;
 const TIMINGS: usize = 5;
 /// Messages of one timing: a tenth of a millisecond or more on either side.
 const MESSAGES_A_TIMING: usize = 50_000;
-/// Messages of one timing of a linear row; the longest chain takes half of them in a single turn.
-const LINEAR_MESSAGES: usize = 200_000;
-const LINEAR_ROUNDS: usize = 11;
+/// Messages of one timing of a linear row; the longest chain takes all of them in a single turn.
+const LINEAR_MESSAGES: usize = 100_000;
+const LINEAR_ROUNDS: usize = 41;
 /// What a message may cost in the largest chain, in multiples of what it costs in the smallest.
 const LINEAR_LIMIT: f64 = 2.0;
 

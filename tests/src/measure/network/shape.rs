@@ -90,8 +90,9 @@ impl Shape {
 
     fn loaded(text: &str, dials: u8, messages: usize) -> anyhow::Result<Self> {
         let mut machine = Machine::with_limits(Limits {
-            // The longest row and the devices.
+            // The longest row and the devices, and all of it after one message.
             instances_max: 2 * LINEAR[LINEAR.len() - 1],
+            firings_per_batch: FIRINGS_MAX,
             ..Limits::default()
         });
         if let Some(diagnostic) = machine.load(text).first() {
