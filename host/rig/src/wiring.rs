@@ -30,27 +30,33 @@ pub(crate) struct Wiring {
     picture: (u64, Arc<DisplayList>),
 }
 
+/// A machine that has what the rig can be asked for, and the upper-case names of the figure's link parameters, in the
+/// figure's order.
+pub(crate) fn machine_for(show: &Show) -> (Machine, Vec<String>) {
+    let mut machine = Machine::new();
+    for parameter in PARAMETERS {
+        let kinds: Vec<Kinds> = parameter.inlets.iter().map(|inlet| inlet.kinds).collect();
+        // Names of the table's own, which a test keeps apart from the machine's.
+        let _ = machine.declare_sink(parameter.name, &kinds);
+    }
+    let mut links = Vec::new();
+    let kinds: Vec<Kinds> = LINK.iter().map(|(kinds, _)| *kinds).collect();
+    for link in show.figure.iter().flat_map(|f| f.figure.links()) {
+        let name = format!("FIGURE.{}", link.name);
+        // Motion capture may name links in ways the language cannot spell; they have no inlet then.
+        if let Err(error) = machine.declare_sink(&name, &kinds) {
+            tracing::debug!("{error}");
+        }
+        links.push(name.to_ascii_uppercase());
+    }
+    (machine, links)
+}
+
 impl Wiring {
     /// Loads the show's networks. What could not be read or done is told in words, with its place; the rest runs.
     pub(crate) fn load(show: &Show) -> (Self, Vec<String>) {
-        let mut machine = Machine::new();
+        let (machine, links) = machine_for(show);
         let mut remarks = Vec::new();
-        for parameter in PARAMETERS {
-            let kinds: Vec<Kinds> = parameter.inlets.iter().map(|inlet| inlet.kinds).collect();
-            if let Err(error) = machine.declare_sink(parameter.name, &kinds) {
-                remarks.push(error.to_string());
-            }
-        }
-        let mut links = Vec::new();
-        let kinds: Vec<Kinds> = LINK.iter().map(|(kinds, _)| *kinds).collect();
-        for link in show.figure.iter().flat_map(|f| f.figure.links()) {
-            let name = format!("FIGURE.{}", link.name);
-            // Motion capture may name links in ways the language cannot spell; they have no inlet then.
-            if let Err(error) = machine.declare_sink(&name, &kinds) {
-                tracing::debug!("{error}");
-            }
-            links.push(name.to_ascii_uppercase());
-        }
         let mut wiring = Self {
             machine,
             links,

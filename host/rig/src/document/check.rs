@@ -1,9 +1,9 @@
 //! Checking a file without opening it in the rig: everything that is wrong with it at once.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use device_profiles::ProfileError;
-use ps300::language::{self, Severity};
+use ps300::language::{self, Diagnostic, Severity};
 
 use super::bvh;
 use super::clip_file;
@@ -14,6 +14,7 @@ use super::show::Show;
 use super::source::Source;
 use super::structure;
 use crate::journal::{JournalError, Script};
+use crate::wiring::machine_for;
 
 /// Checks a show folder, `show.toml`, `.str`, `.pri`, `.shp`, `.ps300`, `.bvh`, a journal, or the `.toml` of a clip or
 /// a hardware profile.
@@ -68,19 +69,12 @@ fn check_show(path: &Path, found: &mut Findings) {
 
 /// What is only judged when a show is played: its networks, and whether its clips can be built.
 fn check_parts(show: &Show, folder: &Path, found: &mut Findings) {
-    let paths = folder::network_paths(folder);
-    let networks = paths
-        .into_iter()
-        .zip(show.networks.iter().map(|network| network.text.as_str()));
-    let mut texts: Vec<(PathBuf, &str)> = networks.collect();
-    texts.push((folder.join("patches.ps300"), &show.patches));
+    check_networks(show, folder, found);
     if let Some(figure) = &show.figure {
-        let beside = |extension: &str| folder.join("figure").join(format!("{}.{extension}", figure.name));
-        texts.push((beside("pri"), &figure.primitives));
-        texts.push((beside("shp"), &figure.shapes));
-    }
-    for (path, text) in texts {
-        check_network(&Source::from_text(&path, text), found);
+        for (extension, text) in [("pri", &*figure.primitives), ("shp", &*figure.shapes)] {
+            let path = folder.join("figure").join(format!("{}.{extension}", figure.name));
+            check_network(&Source::from_text(&path, text), found);
+        }
     }
     let Some(figure) = &show.figure else { return };
     for (name, clip) in &show.clips {
@@ -106,8 +100,26 @@ fn check_parts(show: &Show, folder: &Path, found: &mut Findings) {
     }
 }
 
+/// The networks as the rig loads them, one after the other into one machine: names and kinds are judged too.
+fn check_networks(show: &Show, folder: &Path, found: &mut Findings) {
+    let (mut machine, _) = machine_for(show);
+    let paths = folder::network_paths(folder);
+    let networks = paths
+        .into_iter()
+        .zip(show.networks.iter().map(|network| network.text.as_str()));
+    for (path, text) in networks.chain([(folder.join("patches.ps300"), &*show.patches)]) {
+        let remarks = machine.load(text);
+        note(&Source::from_text(&path, text), remarks, found);
+    }
+}
+
+/// A text of the language by itself. What it refers to may be defined elsewhere.
 fn check_network(source: &Source, found: &mut Findings) {
     let (_, diagnostics) = language::parse(source.text());
+    note(source, diagnostics, found);
+}
+
+fn note(source: &Source, diagnostics: Vec<Diagnostic>, found: &mut Findings) {
     for diagnostic in diagnostics {
         let mut message = diagnostic.message;
         if let Some(expected) = diagnostic.expected {

@@ -241,6 +241,30 @@ fn a_cut_or_binary_file_is_an_error() {
     );
 }
 
+/// Networks load whatever is wrong in them; a check says what that is, names and kinds included.
+#[test]
+fn a_check_loads_the_networks_into_one_machine() {
+    for (from, to, part) in [
+        ("turn := F:MULC", "turn := F:MULT", "there is no function F:MULT"),
+        ("<1>turn;", "<9>turn;", "turn has no input <9>"),
+        ("<1>turn;", "<1>turn", "expected"),
+    ] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        document::save(&rich(), folder.path()).expect("saves");
+        let path = folder.path().join("networks/figure.ps300");
+        let text = fs::read_to_string(&path).expect("is there");
+        assert!(text.contains(from), "{from}");
+        assert_eq!(check::check_file(folder.path()).errors, []);
+        fs::write(&path, text.replacen(from, to, 1)).expect("writes");
+        let errors = check::check_file(folder.path()).errors;
+        let told = errors
+            .iter()
+            .any(|error| error.file == path && error.message.contains(part));
+        assert!(told, "{to}: {errors:?}");
+        assert!(document::load(folder.path()).is_ok(), "{to}");
+    }
+}
+
 #[test]
 fn a_clip_alone_is_checked_against_the_show_around_it() {
     let folder = tempfile::tempdir().expect("a temporary folder");

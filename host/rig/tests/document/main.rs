@@ -27,7 +27,7 @@ fn salute() -> Show {
 
 /// A show that uses every part of the formats.
 fn rich() -> Show {
-    let mut show = salute().with_patch("SEND 1 TO <1>A;");
+    let mut show = salute().with_patch("SEND 90 TO <2>turn;");
     show.name = "With \"quotes\" and\ttabs".into();
     let mut keys = show.current_clip().expect("a clip").keys.clone();
     let mut stretched = keys[2].as_ref().clone();
