@@ -48,6 +48,11 @@ impl<T> History<T> {
         &self.present
     }
 
+    /// The value that [`History::undo`] would bring back.
+    pub fn previous(&self) -> Option<&Arc<T>> {
+        self.past.back().map(|step| &step.state)
+    }
+
     /// Makes `next` the present. `words` describe the change for the undo menu. A change of the same
     /// `gesture` as the one before replaces it: one drag is one step.
     pub fn push(&mut self, next: T, words: impl Into<String>, gesture: Option<String>) {

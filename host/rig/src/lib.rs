@@ -16,6 +16,7 @@ pub mod listen;
 pub mod live;
 pub mod maintenance;
 mod network_look;
+mod network_steps;
 mod notes;
 pub mod parameters;
 mod ports;

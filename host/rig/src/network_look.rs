@@ -40,11 +40,6 @@ impl Looking {
         }
     }
 
-    /// The network is another one, whose revisions begin anew.
-    pub(crate) fn forget(&mut self) {
-        self.picture = Arc::default();
-    }
-
     pub(crate) fn look(
         &mut self,
         machine: &Machine,

@@ -9,6 +9,7 @@ use glam::DMat4;
 use motion::figure::Figure;
 use ps300::Diagnostic;
 use ps300::display::{DisplayList, Stroke};
+use ps300::language::{self, Command, Position, Severity};
 use ps300::machine::{Machine, Panel};
 use ps300::value::{Kinds, Value};
 
@@ -52,6 +53,16 @@ pub(crate) fn machine_for(show: &Show) -> (Machine, Vec<String>) {
     (machine, links)
 }
 
+/// What became of commands given while the rig runs.
+pub(crate) struct Done {
+    /// What was wrong, with places in their text.
+    pub(crate) found: Vec<Diagnostic>,
+    /// Those that were not refused, as they were written, or canonically where some were.
+    pub(crate) accepted: String,
+    /// What continues if the same is done again at once.
+    pub(crate) gesture: Option<String>,
+}
+
 impl Wiring {
     /// Loads the show's networks. What could not be read or done is told in words, with its place; the rest runs.
     pub(crate) fn load(show: &Show) -> (Self, Vec<String>) {
@@ -84,9 +95,47 @@ impl Wiring {
         (wiring, remarks)
     }
 
-    /// Executes commands given while the rig runs. Refused as a whole only if nothing of it could be read.
-    pub(crate) fn execute(&mut self, text: &str) -> Vec<Diagnostic> {
-        self.machine.load(text)
+    /// Executes commands given while the rig runs.
+    pub(crate) fn execute(&mut self, text: &str) -> Done {
+        let found = self.machine.load(text);
+        let (commands, _) = language::parse(text);
+        let refused = |at: Position| {
+            let errors = found.iter().filter(|it| it.severity == Severity::Error);
+            errors
+                .into_iter()
+                .any(|it| (it.line, it.column) == (at.line, at.column))
+        };
+        let accepted: Vec<&Command> = commands
+            .iter()
+            .filter(|command| !refused(command.at))
+            .map(|command| &command.what)
+            .collect();
+        let gesture = match accepted.as_slice() {
+            // A value that is dragged sends again and again to one place.
+            [Command::Send { to, .. }] => Some(format!("send {:?} {}", to.input, to.name)),
+            _ => None,
+        };
+        let accepted = if found.is_empty() && !accepted.is_empty() {
+            text.to_owned()
+        } else {
+            let lines: Vec<String> = accepted.into_iter().map(language::print).collect();
+            lines.join("\n")
+        };
+        Done {
+            found,
+            accepted,
+            gesture,
+        }
+    }
+
+    /// Makes the change from one program to another; with new errors none.
+    pub(crate) fn edit_program(&mut self, from: &str, to: &str) -> Vec<Diagnostic> {
+        self.machine.edit_program(from, to)
+    }
+
+    /// Takes a change back, or makes it again; both are texts with state.
+    pub(crate) fn restore(&mut self, from: &str, to: &str) {
+        self.machine.restore(from, to);
     }
 
     /// Withholds what an output would send, or lets it send again.
@@ -148,6 +197,11 @@ impl Wiring {
     /// The network and all that was done to it since, as text that loads to the same behaviour.
     pub(crate) fn text(&self) -> String {
         self.machine.network_text()
+    }
+
+    /// The same with what messages have done.
+    pub(crate) fn text_with_state(&self) -> String {
+        self.machine.network_text_with_state()
     }
 }
 

@@ -7,7 +7,6 @@ use crate::command::{Command, EditCommand, PoseCommand, PuppetCommand, ViewComma
 use crate::document;
 use crate::parameters::Request;
 use crate::snapshot::NoteLevel;
-use crate::wiring::Wiring;
 
 /// A pause this long ends a movement of the hand: later changes are a step of undo of their own, seconds.
 const GESTURE_PAUSE_SECS: f64 = 1.0;
@@ -140,14 +139,11 @@ impl Rig {
     }
 
     /// Takes over a show that undo or redo brought back, touching only what differs.
-    fn changed_from(&mut self, before: &document::Show) {
+    fn changed_from(&mut self, before: &Arc<document::Show>) {
         let show = Arc::clone(self.history.present());
-        if show.patches != before.patches || show.networks != before.networks {
-            let (wiring, remarks) = Wiring::load(&show);
-            self.take_wiring(wiring);
-            for remark in remarks {
-                self.note(NoteLevel::Warning, remark);
-            }
+        self.network_changed_from(before);
+        if show.figure == before.figure && show.clips == before.clips && show.clip == before.clip {
+            return;
         }
         if show.figure != before.figure {
             self.set_stage();

@@ -22,6 +22,7 @@ use crate::history::History;
 use crate::inputs::{Change, InputError, InputSpec, Inputs};
 use crate::journal::Recorder;
 use crate::network_look::Looking;
+use crate::network_steps::NetworkSteps;
 use crate::notes::Notes;
 use crate::ports::Ports;
 use crate::puppet::{PuppetSetupError, PuppetSpec, Seat};
@@ -72,6 +73,7 @@ pub struct Rig {
     wiring: Wiring,
     /// What a patch panel was shown last, while there is one.
     looking: Option<Looking>,
+    network_steps: NetworkSteps,
     stage: Option<Stage>,
     clip: Option<Arc<Clip>>,
     kinetics_view: crate::snapshot::KineticsView,
@@ -116,6 +118,7 @@ impl Rig {
             history,
             wiring,
             looking: None,
+            network_steps: NetworkSteps::default(),
             stage: None,
             clip: None,
             kinetics_view: crate::snapshot::KineticsView::default(),

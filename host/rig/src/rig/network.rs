@@ -1,4 +1,7 @@
-//! Changing the network while it runs.
+//! Changing the network while it runs: edits by command or as a whole text, and back.
+//!
+//! The running machine is never replaced. An edit changes what it names; undo and redo change it into what it was
+//! before or after, and what was not edited keeps its messages and sums.
 
 use std::sync::Arc;
 
@@ -6,29 +9,31 @@ use ps300::Diagnostic;
 
 use super::Rig;
 use crate::command::NetworkEdit;
+use crate::document::Show;
 use crate::network_look::Looking;
 use crate::snapshot::NetworkLook;
-use crate::wiring::Wiring;
 
 impl Rig {
     pub(super) fn edit_network(&mut self, edit: &NetworkEdit) -> Result<(), String> {
         match edit {
             NetworkEdit::Commands(text) => {
-                let found = self.wiring.execute(text);
-                let show = self.history.present().with_patch(text);
-                self.change(show, "network commands".into(), None);
-                self.told(&found)
+                let before = self.wiring.text_with_state();
+                let done = self.wiring.execute(text);
+                if !done.accepted.is_empty() {
+                    let show = self.history.present().with_patch(&done.accepted);
+                    self.network_changed(show, "network commands", done.gesture, before);
+                }
+                self.told(&done.found)
             }
             NetworkEdit::Program(text) => {
                 let show = self.history.present().with_program(text);
-                let (wiring, remarks) = Wiring::load(&show);
-                self.take_wiring(wiring);
-                self.change(show, "network program".into(), None);
-                if remarks.is_empty() {
-                    Ok(())
-                } else {
-                    Err(remarks.join("; "))
+                let before = self.wiring.text_with_state();
+                let from = self.history.present().program_text();
+                let found = self.wiring.edit_program(&from, text);
+                if !found.iter().any(is_error) && from != *text {
+                    self.network_changed(show, "network program", None, before);
                 }
+                self.told(&found)
             }
             NetworkEdit::Undo => self.undo(),
             NetworkEdit::Redo => self.redo(),
@@ -36,10 +41,31 @@ impl Rig {
         }
     }
 
-    pub(super) fn take_wiring(&mut self, wiring: Wiring) {
-        self.wiring = wiring;
-        if let Some(looking) = &mut self.looking {
-            looking.forget();
+    fn network_changed(&mut self, show: Show, words: &str, gesture: Option<String>, before: String) {
+        let from = Arc::clone(self.history.present());
+        self.change(show, words.to_owned(), gesture);
+        let merged = !self
+            .history
+            .previous()
+            .is_some_and(|previous| Arc::ptr_eq(previous, &from));
+        let shows = [from, Arc::clone(self.history.present())];
+        let after = self.wiring.text_with_state();
+        self.network_steps
+            .note(shows, [before.into(), after.into()], merged);
+    }
+
+    /// Takes the network over that undo or redo brought back.
+    pub(super) fn network_changed_from(&mut self, before: &Arc<Show>) {
+        let show = Arc::clone(self.history.present());
+        if show.patches == before.patches && show.networks == before.networks {
+            return;
+        }
+        if let Some([from, to]) = self.network_steps.between(before, &show) {
+            self.wiring.restore(&from, &to);
+        } else {
+            // The change is too old to be known; what the documents say still is.
+            self.wiring
+                .edit_program(&before.program_text(), &show.program_text());
         }
     }
 
@@ -54,8 +80,9 @@ impl Rig {
             self.history.undo_words().is_some(),
             self.history.redo_words().is_some(),
         ];
+        let show = Arc::clone(self.history.present());
         let looking = self.looking.as_mut()?;
-        Some(looking.look(self.wiring.machine(), &Arc::clone(self.history.present()), steps))
+        Some(looking.look(self.wiring.machine(), &show, steps))
     }
 
     /// Passes on what was wrong with an edit: to the panel with its places, and as one remark.
@@ -69,4 +96,8 @@ impl Rig {
         let words: Vec<String> = found.iter().map(ToString::to_string).collect();
         Err(words.join("; "))
     }
+}
+
+fn is_error(diagnostic: &Diagnostic) -> bool {
+    diagnostic.severity == ps300::language::Severity::Error
 }
