@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::language::{Name, Spelling};
-use crate::network::{InstanceId, SinkId};
+use crate::network::{InstanceId, Made, SinkId};
 use crate::structure::NodeId;
 
 /// A name's entry; stays valid as long as the machine.
@@ -45,6 +45,8 @@ pub(crate) struct Entry {
     pub(crate) known: bool,
     /// Counts definitions; listings are in this order.
     pub(crate) defined: u64,
+    /// The command that defined it.
+    pub(crate) made: Option<Made>,
 }
 
 /// All names.
@@ -53,6 +55,8 @@ pub(crate) struct Names {
     entries: Vec<Entry>,
     by_name: BTreeMap<Name, NameId>,
     definitions: u64,
+    /// The command that defines what is being defined.
+    pub(crate) making: Option<Made>,
 }
 
 impl Names {
@@ -105,6 +109,7 @@ impl Names {
             referenced: false,
             known: true,
             defined: 0,
+            made: None,
         });
         self.by_name.insert(name.clone(), id);
         id
@@ -120,10 +125,11 @@ impl Names {
     pub(crate) fn define(&mut self, name: &Name, thing: Thing) -> NameId {
         let id = self.intern(name);
         self.definitions += 1;
-        let defined = self.definitions;
+        let (defined, made) = (self.definitions, self.making.clone());
         let entry = self.entry_mut(id);
         entry.thing = Some(thing);
         entry.defined = defined;
+        entry.made = made;
         entry.owner = Owner::Commands;
         id
     }
@@ -144,6 +150,7 @@ impl Names {
     pub(crate) fn clear(&mut self, id: NameId) {
         let entry = self.entry_mut(id);
         entry.thing = None;
+        entry.made = None;
         entry.owner = Owner::Commands;
     }
 

@@ -115,7 +115,9 @@ fn breeding_fills_its_own_queues_and_nobody_elses() {
     assert_eq!(m.drain_watched().count(), 20);
     let reports = reports(&mut m).join("\n");
     assert!(
-        reports.contains("a (F:SYNC(2)): the network holds as many messages as it may"),
+        reports.contains("a (F:SYNC(2), made at ")
+            && reports
+                .contains("): the network holds as many messages as it may; the newest message, 1, was"),
         "{reports}"
     );
 }
@@ -134,13 +136,24 @@ fn a_full_backlog_drops_the_newest_and_says_whose() {
     m.send("heard", Input::Number(1), 6.0).unwrap();
     m.send("view", Input::Number(1), 7.0).unwrap();
     m.send("t", Input::Number(1), glam::DVec3::X).unwrap();
-    let full = "too many messages wait for the network to come to rest; the newest was dropped";
     let expected = [
-        format!("DIALS (device): {full} (2 times)"),
-        format!("heard (F:NOP): {full}"),
-        format!("view (host input): {full}"),
-        format!("t (TRANSLATE node): {full}"),
+        "DIALS (device): ",
+        "heard (F:NOP, made at line 3 \"heard := F:NOP;\"): ",
+        "view (host input): ",
+        "t (TRANSLATE node, made at line 1 \"t := TRANSLATE BY 0,0,0;\"): ",
     ];
+    let dropped = [
+        "4, was dropped (2 times)",
+        "6, was dropped",
+        "7, was dropped",
+        "V3D(1,0,0), was dropped",
+    ];
+    let full = "too many messages wait for the network to come to rest; the newest message, ";
+    let expected: Vec<_> = expected
+        .iter()
+        .zip(dropped)
+        .map(|(who, what)| format!("{who}{full}{what}"))
+        .collect();
     assert_eq!(reports(&mut m), expected);
     m.settle();
     let heard: Vec<_> = m

@@ -82,7 +82,7 @@ fn one_output_delivers_in_the_order_of_connect_and_twice_is_once() {
     );
     assert_eq!(
         reports(&mut m),
-        ["n (output <1>): already connected to <2>c; nothing changed"]
+        ["n (output <1>, made at line 1 \"n := F:NOP;\"): already connected to <2>c; nothing changed"]
     );
     for name in ["c", "x", "y"] {
         m.watch(name, 1);
@@ -133,8 +133,8 @@ fn a_wrong_kind_is_dropped_alone_and_reported_once() {
     m.watch("a", 1);
     m.load("SEND 1 TO <1>n; SEND TRUE TO <1>n; SEND FALSE TO <1>n; SEND 2 TO <1>n; SEND 5 TO <2>a; SEND 5 TO <2>a;");
     assert_eq!(seen(&mut m), ["a<1> 6", "a<1> 7"]);
-    let expected = "a (F:ADD): input <1> takes integer or real or vector2 or vector3 or vector4 or matrix2 or \
-                    matrix3 or matrix4, got boolean; the message was dropped (2 times)";
+    let expected = "a (F:ADD, made at line 1 \"a := F:ADD;\"): input <1> takes integer or real or vector2 or vector3 or vector4 or matrix2 or \
+                    matrix3 or matrix4, got boolean TRUE; the message was dropped (2 times)";
     assert_eq!(reports(&mut m), [expected]);
     assert_eq!(reports(&mut m), [""; 0]);
 }
@@ -175,7 +175,7 @@ fn a_loop_that_breeds_is_bounded_and_named() {
     m.load("CONNECT b<1>:<2>a; SEND 1 TO <1>a; SEND 1 TO <2>a; SEND 'x' TO <2>a; SEND 'y' TO <1>a;");
     let reports = reports(&mut m).join("\n");
     assert!(
-        reports.contains("a (F:SYNC(2)): the queue of input <"),
+        reports.contains("a (F:SYNC(2), made at line 1 \"a := F:SYNC(2);\"): the queue of input <"),
         "{reports}"
     );
     assert!(
@@ -225,7 +225,9 @@ fn infinities_do_not_travel() {
     assert_eq!(seen(&mut m).len(), 1);
     assert_eq!(
         reports(&mut m),
-        ["a (F:MULC): the result is not a finite number; it was not sent"]
+        [
+            "a (F:MULC, made at line 1 \"a := F:MULC;\"): the result is not a finite number (inf); it was not sent"
+        ]
     );
     assert!(m.send("b", Input::Number(1), f64::NAN).is_err());
     m.emit("dials", 1, f64::INFINITY);
@@ -377,7 +379,7 @@ fn clocks_run_on_network_time_alone() {
     m.tick(1e12, 0, 100);
     let report = reports(&mut m).join("");
     assert!(
-        report.contains("c (F:CLCSECONDS): network time jumped"),
+        report.contains("c (F:CLCSECONDS, made at line 1 \"c := F:CLCSECONDS;\"): network time jumped"),
         "{report}"
     );
     assert!(m.drain_watched().count() <= 256);

@@ -293,9 +293,12 @@ fn vector_lists_are_inked_by_message() {
     assert_eq!(
         reports,
         [
-            "ink (VECTOR_LIST node): the vector list has no vector of that number",
-            "ink (VECTOR_LIST node): a count of deletions is not negative"
+            "the vector list has no vector of that number; input <99> had V2D(0,0)",
+            "a count of deletions is not negative; input <delete> had FIX(-1)"
         ]
+        .map(|why| format!(
+            "ink (VECTOR_LIST node, made at line 1 \"ink := VECTOR_LIST CONNECTED N=2 0,0 1,0;\"): {why}"
+        ))
     );
     m.load("SEND TRUE TO <clear>ink; SEND FIX(9) TO <delete>ink; SEND V2D(1,0) TO <append>ink; SEND V2D(2,0) TO <append>ink;");
     assert_eq!(xs(&m), [(1.0, 2.0)]);

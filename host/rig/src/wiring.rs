@@ -77,21 +77,12 @@ impl Wiring {
             picture: (0, Arc::default()),
         };
         for file in &show.networks {
-            remarks.extend(
-                wiring
-                    .machine
-                    .load(&file.text)
-                    .iter()
-                    .map(|d| format!("{}.ps300:{d}", file.name)),
-            );
+            let called = format!("{}.ps300", file.name);
+            let found = wiring.machine.load_named(&called, &file.text);
+            remarks.extend(found.iter().map(|d| format!("{called}:{d}")));
         }
-        remarks.extend(
-            wiring
-                .machine
-                .load(&show.patches)
-                .iter()
-                .map(|d| format!("patches:{d}")),
-        );
+        let found = wiring.machine.load_named("patches", &show.patches);
+        remarks.extend(found.iter().map(|d| format!("patches:{d}")));
         (wiring, remarks)
     }
 

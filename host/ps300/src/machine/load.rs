@@ -1,7 +1,8 @@
 //! Whole programs.
 
-use super::Machine;
+use super::{ExecuteError, Machine};
 use crate::language::{Command, Definition, Diagnostic, Located, Name, Node, Position, parse};
+use crate::network::{Made, Places};
 
 /// Firings a command has in any case: enough for most, and few enough for a text of a million commands that are
 /// given while something goes round for ever.
@@ -10,14 +11,21 @@ const FIRINGS_LEAST: u32 = 16;
 impl Machine {
     /// Reads a program and executes it command by command. What could not be read or executed is left out
     /// and named, in the order of the text; so is what display nodes refer to and nothing defines.
-    pub fn load(&mut self, source: &str) -> Vec<Diagnostic> {
-        let (commands, mut diagnostics) = parse(source);
+    pub fn load(&mut self, text: &str) -> Vec<Diagnostic> {
+        self.load_named("", text)
+    }
+
+    /// The same of a text called `source`, usually its file: reports then say where things were made.
+    pub fn load_named(&mut self, source: &str, text: &str) -> Vec<Diagnostic> {
+        let (commands, mut diagnostics) = parse(text);
+        let places = Places::new(source, text);
         let mut referred = Vec::new();
         let limits = self.network.limits;
         let mut left = limits.firings_per_load;
         for Located { at, what } in &commands {
             let firings = limits.firings_per_command.min(left.max(FIRINGS_LEAST));
-            match self.execute_within(firings, what) {
+            let made = is_making(what).then(|| places.at(*at));
+            match self.execute_made(made, |machine| machine.execute_within(firings, what)) {
                 Ok(fired) => {
                     left = left.saturating_sub(fired);
                     references(what, *at, &mut referred);
@@ -38,6 +46,34 @@ impl Machine {
         diagnostics.sort_by_key(|diagnostic| (diagnostic.line, diagnostic.column));
         diagnostics
     }
+}
+
+impl Machine {
+    /// Executes a command of a text, so that reports say where what it makes was made.
+    pub fn execute_at(&mut self, command: &Command, made: Made) -> Result<(), ExecuteError> {
+        self.execute_made(Some(made), |machine| machine.execute(command))
+    }
+
+    fn execute_made<T>(&mut self, made: Option<Made>, execute: impl FnOnce(&mut Self) -> T) -> T {
+        self.names.making.clone_from(&made);
+        self.network.making = made;
+        let done = execute(self);
+        self.names.making = None;
+        self.network.making = None;
+        done
+    }
+}
+
+/// Whether a command may make something; those that do not are the most, and their place is not looked up.
+fn is_making(command: &Command) -> bool {
+    !matches!(
+        command,
+        Command::Send { .. }
+            | Command::Store { .. }
+            | Command::Connect { .. }
+            | Command::SetupCness { .. }
+            | Command::SetupState { .. }
+    )
 }
 
 /// The names a command uses that may still be undefined when it is executed.

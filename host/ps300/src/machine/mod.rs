@@ -44,7 +44,7 @@ use crate::intrinsic::Now;
 use crate::language::{Input, Name};
 use crate::names::{NameId, Names, Thing};
 use crate::network::{
-    Arrival, Cause, Inlet, InstanceId, Limits, Network, Outlet, Ran, Refusal, Report, Role, SinkId,
+    About, Arrival, Cause, Inlet, InstanceId, Limits, Network, Outlet, Ran, Refusal, Report, Role, SinkId,
     Surroundings, Watched,
 };
 use crate::structure::{NodeId, Structure, Walk};
@@ -83,16 +83,22 @@ struct Around<'a> {
 }
 
 impl Surroundings for Around<'_> {
-    fn node(&mut self, to: NodeId, input: Input, value: &Value) -> Result<(), Refusal> {
+    fn feed(&mut self, to: NodeId, input: Input, value: &Value) -> Result<(), Refusal> {
         self.structure.feed(to, input, value)
     }
 
-    fn node_name(&self, to: NodeId) -> (Name, &'static str) {
+    fn node(&self, to: NodeId) -> (Name, About) {
         let name = self
             .structure
             .slot(to)
             .map_or_else(|| Name::new("?"), |slot| slot.name.clone());
-        (name, self.structure.what(to))
+        let entry = self.names.find(&name).map(|id| self.names.entry(id));
+        let about = About {
+            what: format!("{} node", self.structure.what(to)),
+            made: entry.and_then(|entry| entry.made.clone()),
+            message: None,
+        };
+        (name, about)
     }
 
     fn sink_arrived(&mut self, sink: SinkId, value: &Value) {
@@ -370,7 +376,12 @@ impl Machine {
     }
 
     fn note(&mut self, name: &Name, what: &str, cause: Cause) {
-        self.network.reports.note(name, || what.to_owned(), cause);
+        let entry = self.names.find(name).map(|id| self.names.entry(id));
+        let about = || About {
+            made: entry.and_then(|entry| entry.made.clone()),
+            ..About::new(what)
+        };
+        self.network.reports.note(name, about, cause);
     }
 
     /// The value a variable or constant holds at its first input.

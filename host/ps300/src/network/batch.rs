@@ -8,11 +8,11 @@
 use std::collections::{BTreeSet, VecDeque};
 
 use super::connection::{Inlet, InstanceId, Outlet};
-use super::report::Cause;
+use super::report::{About, Cause};
 use super::run::Surroundings;
 use super::{Network, Ran};
 use crate::intrinsic::Now;
-use crate::language::Name;
+use crate::language::{Input, Name};
 use crate::structure::NodeId;
 use crate::value::Value;
 
@@ -81,23 +81,26 @@ impl Network {
             self.arrivals.messages.push_back((to, value));
             self.arrivals.open += 1;
         } else {
-            match to {
-                Arrival::Output(Outlet { from: id, .. }) | Arrival::Input(Inlet::Function { to: id, .. }) => {
-                    self.report(id, Cause::BacklogFull);
-                }
-                Arrival::Input(Inlet::Sink { to, .. }) => {
-                    if let Some(sink) = self.sinks.get(to.0 as usize) {
-                        self.reports
-                            .note(&sink.name, || "host input".to_owned(), Cause::BacklogFull);
-                    }
-                }
-                Arrival::Input(Inlet::Node { to, .. }) => {
-                    let (name, what) = outside.node_name(to);
-                    self.reports
-                        .note(&name, || format!("{what} node"), Cause::BacklogFull);
-                }
-                Arrival::Nowhere => {}
+            self.report_backlog(to, value, outside);
+        }
+    }
+
+    fn report_backlog(&mut self, to: Arrival, value: Value, outside: &mut impl Surroundings) {
+        let cause = Cause::BacklogFull;
+        match to {
+            Arrival::Output(Outlet { from: id, .. }) => {
+                self.report_message(id, cause, || Some((None, value)));
             }
+            Arrival::Input(Inlet::Function { to: id, input }) => {
+                let input = Input::Number(input.into());
+                self.report_message(id, cause, || Some((Some(input), value)));
+            }
+            Arrival::Input(Inlet::Sink { to, input }) => self.report_sink(to, input, &value, cause),
+            Arrival::Input(Inlet::Node { to, input }) => {
+                let (name, about) = outside.node(to);
+                self.reports.note(&name, || about.message(input, &value), cause);
+            }
+            Arrival::Nowhere => {}
         }
     }
 
@@ -133,7 +136,7 @@ impl Network {
         }
         if arrivals.closed.len() >= self.limits.batches_max {
             let name = Name::new("network");
-            return self.reports.note(&name, || "network".to_owned(), Cause::Behind);
+            return self.reports.note(&name, || About::new("network"), Cause::Behind);
         }
         let count = std::mem::take(&mut arrivals.open);
         arrivals.begun = false;

@@ -1,6 +1,7 @@
 //! One instance of a function: a device, a variable or an `F:` of the user.
 
 use super::connection::InstanceId;
+use super::made::Made;
 use super::output::OutputPort;
 use super::port::InputPort;
 use crate::intrinsic::{Does, Fault, Fire, Function, Inputs, Now, Outputs, Spec};
@@ -74,6 +75,8 @@ pub(super) struct Description {
     /// For sized types.
     pub(super) size: Option<u8>,
     pub(super) role: Role,
+    /// The command that made it.
+    pub(super) made: Option<Made>,
     /// Counts instances ever made; listings are in this order.
     pub(super) serial: u64,
 }

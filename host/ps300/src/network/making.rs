@@ -39,6 +39,7 @@ impl Network {
             spec,
             size,
             role,
+            made: self.making.clone(),
             serial: self.made,
         });
         self.made += 1;

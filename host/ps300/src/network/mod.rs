@@ -8,6 +8,7 @@
 mod batch;
 mod connection;
 mod instance;
+mod made;
 mod making;
 mod output;
 mod port;
@@ -26,9 +27,10 @@ pub use connection::{ConnectError, InstanceId, Outlet, SinkId};
 pub(crate) use connection::{Inlet, input_text};
 pub use instance::Role;
 pub(crate) use instance::{Instance, Numbered};
+pub use made::{Made, Places};
 pub(crate) use output::OutputPort;
 pub use port::InputPort;
-pub(crate) use report::Reports;
+pub(crate) use report::{About, Reports};
 pub use report::{Cause, Report};
 pub use run::Ran;
 pub(crate) use run::{Refusal, Surroundings};
@@ -41,7 +43,7 @@ use instance::{Behaviour, Description};
 use queues::Queues;
 
 use crate::intrinsic::{Errand, Now, Spares};
-use crate::language::Name;
+use crate::language::{Input, Name};
 use crate::value::{Kinds, Value};
 
 /// What bounds a network. The defaults leave room for everything meant and end everything runaway.
@@ -126,6 +128,8 @@ pub(crate) struct Network {
     pub(crate) limits: Limits,
     pub(crate) now: Now,
     pub(crate) reports: Reports,
+    /// The command that makes what is being made.
+    pub(crate) making: Option<Made>,
     arrived: VecDeque<(SinkId, u8, Value)>,
     watched: VecDeque<Watched>,
     // Lent to each firing and given back, so that firing does not allocate.
@@ -154,6 +158,7 @@ impl Network {
             limits,
             now: Now::default(),
             reports: Reports::default(),
+            making: None,
             arrived: VecDeque::new(),
             watched: VecDeque::new(),
             sent: Vec::new(),
@@ -227,8 +232,23 @@ impl Network {
     }
 
     pub(crate) fn report(&mut self, id: InstanceId, cause: Cause) {
+        self.report_message(id, cause, || None);
+    }
+
+    /// The same with a message it happened to, and the input that came to.
+    fn report_message(
+        &mut self,
+        id: InstanceId,
+        cause: Cause,
+        message: impl FnOnce() -> Option<(Option<Input>, Value)>,
+    ) {
         if let Some(Some(description)) = self.descriptions.get(id.0 as usize) {
-            self.reports.note(&description.name, || description.what(), cause);
+            let about = || About {
+                what: description.what(),
+                made: description.made.clone(),
+                message: message(),
+            };
+            self.reports.note(&description.name, about, cause);
         }
     }
 }

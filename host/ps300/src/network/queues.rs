@@ -12,6 +12,7 @@ use super::port::InputPort;
 use super::ring::Ring;
 use super::token::Token;
 use crate::intrinsic::{Preset, Scalar};
+use crate::language::Input;
 use crate::value::{Kinds, Value};
 
 /// What delivering to an instance and firing it need to know.
@@ -166,6 +167,13 @@ impl Queues {
             head.missing = head.missing.saturating_sub(1);
             self.enqueue_if_ready(to);
         }
+    }
+
+    /// The first message that waits for an instance, and where.
+    pub(super) fn first_waiting(&self, id: InstanceId) -> Option<(Option<Input>, Value)> {
+        let mut waiting = (1..).zip(self.ports(id)).filter(|(_, port)| !port.constant);
+        let (number, value) = waiting.find_map(|(number, port)| Some((number, port.front()?)))?;
+        Some((Some(Input::Number(number)), value.clone()))
     }
 
     fn port_mut(&mut self, of: InstanceId, input: u8) -> Option<&mut InputPort> {

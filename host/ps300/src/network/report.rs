@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::language::{Input, Name};
-use crate::network::connection::input_text;
-use crate::value::{Kind, Kinds};
+use super::connection::input_text;
+use super::made::Made;
+use crate::language::{Input, Name, literal};
+use crate::value::{Kind, Kinds, Value};
 
 /// Something dropped, refused or postponed, and how often since the reports were last taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +15,12 @@ pub struct Report {
     pub name: Name,
     /// What that is: `F:ADDC`, `ROTATE node`, `host input`.
     pub what: String,
+    /// The command that made it, if that is known.
+    pub made: Option<Made>,
     /// What happened.
     pub cause: Cause,
+    /// The first message to which it happened, and the input it came to; not finite is one that was to be sent.
+    pub message: Option<(Option<Input>, Value)>,
     /// How often.
     pub count: u32,
 }
@@ -73,26 +78,30 @@ impl fmt::Display for Report {
         if self.cause == Cause::Unlisted {
             return write!(f, "{} further reports are not listed", self.count);
         }
-        write!(f, "{} ({}): ", self.name, self.what)?;
+        write!(f, "{} ({}", self.name, self.what)?;
+        if let Some(made) = &self.made {
+            write!(f, ", made at {made}")?;
+        }
+        f.write_str("): ")?;
         match &self.cause {
             Cause::Kind { input, expected, got } => {
-                write!(
-                    f,
-                    "input {} takes {expected}, got {got}; the message was dropped",
-                    input_text(*input)
-                )?;
+                write!(f, "input {} takes {expected}, got {got}", input_text(*input))?;
+                self.write_message(f, " ", "")?;
+                f.write_str("; the message was dropped")?;
             }
             Cause::Domain { why } => f.write_str(why)?,
-            Cause::NotFinite => f.write_str("the result is not a finite number; it was not sent")?,
+            Cause::NotFinite => {
+                f.write_str("the result is not a finite number")?;
+                self.write_message(f, " (", ")")?;
+                f.write_str("; it was not sent")?;
+            }
             Cause::QueueFull { input } => {
-                write!(
-                    f,
-                    "the queue of input {} is full; the newest message was dropped",
-                    input_text(*input)
-                )?;
+                write!(f, "the queue of input {} is full; ", input_text(*input))?;
+                self.write_dropped(f)?;
             }
             Cause::NetworkFull => {
-                f.write_str("the network holds as many messages as it may; the newest was dropped")?;
+                f.write_str("the network holds as many messages as it may; ")?;
+                self.write_dropped(f)?;
             }
             Cause::OutOfBudget => {
                 f.write_str(
@@ -100,9 +109,8 @@ impl fmt::Display for Report {
                 )?;
             }
             Cause::BacklogFull => {
-                f.write_str(
-                    "too many messages wait for the network to come to rest; the newest was dropped",
-                )?;
+                f.write_str("too many messages wait for the network to come to rest; ")?;
+                self.write_dropped(f)?;
             }
             Cause::Behind => f.write_str("the network cannot keep up; ticks are taken together")?,
             Cause::Unknown { name } => write!(f, "there is no {name:?}")?,
@@ -115,7 +123,56 @@ impl fmt::Display for Report {
         if self.count > 1 {
             write!(f, " ({} times)", self.count)?;
         }
+        if let (Cause::Domain { .. }, Some((Some(input), _))) = (&self.cause, &self.message) {
+            write!(f, "; input {} had", input_text(*input))?;
+            self.write_message(f, " ", "")?;
+        }
         Ok(())
+    }
+}
+
+/// Enough of a message to recognise it by.
+const CHARACTERS_MAX: usize = 60;
+
+impl Report {
+    fn write_message(&self, f: &mut fmt::Formatter<'_>, before: &str, after: &str) -> fmt::Result {
+        let Some((_, value)) = &self.message else {
+            return Ok(());
+        };
+        let text = literal(value);
+        match text.char_indices().nth(CHARACTERS_MAX) {
+            None => write!(f, "{before}{text}{after}"),
+            Some((end, _)) => write!(f, "{before}{}…{after}", &text[..end]),
+        }
+    }
+
+    fn write_dropped(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the newest message")?;
+        self.write_message(f, ", ", ",")?;
+        f.write_str(" was dropped")
+    }
+}
+
+/// Who and what a report is about.
+pub(crate) struct About {
+    pub(crate) what: String,
+    pub(crate) made: Option<Made>,
+    pub(crate) message: Option<(Option<Input>, Value)>,
+}
+
+impl About {
+    pub(crate) fn new(what: &str) -> Self {
+        Self {
+            what: what.to_owned(),
+            made: None,
+            message: None,
+        }
+    }
+
+    /// With the message and the input it came to.
+    pub(crate) fn message(mut self, input: Input, value: &Value) -> Self {
+        self.message = Some((Some(input), value.clone()));
+        self
     }
 }
 
@@ -132,8 +189,8 @@ pub(crate) struct Reports {
 }
 
 impl Reports {
-    /// `what` is asked only when the report is new.
-    pub(crate) fn note(&mut self, name: &Name, what: impl FnOnce() -> String, cause: Cause) {
+    /// `about` is asked only when the report is new.
+    pub(crate) fn note(&mut self, name: &Name, about: impl FnOnce() -> About, cause: Cause) {
         match self.counts.get_mut(name) {
             Some(count) => *count += 1,
             None => {
@@ -144,10 +201,13 @@ impl Reports {
         if let Some(report) = self.listed.iter_mut().rev().find(same) {
             report.count = report.count.saturating_add(1);
         } else if self.listed.len() < DIFFERENT_MAX {
+            let About { what, made, message } = about();
             self.listed.push(Report {
                 name: name.clone(),
-                what: what(),
+                what,
+                made,
                 cause,
+                message,
                 count: 1,
             });
         } else {
@@ -166,7 +226,9 @@ impl Reports {
             reports.push(Report {
                 name: Name::new("network"),
                 what: "network".to_owned(),
+                made: None,
                 cause: Cause::Unlisted,
+                message: None,
                 count: std::mem::take(&mut self.unlisted),
             });
         }

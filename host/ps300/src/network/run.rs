@@ -12,7 +12,7 @@
 use super::batch::Allowance;
 use super::connection::{Inlet, InstanceId, Outlet, SinkId};
 use super::instance::Behaviour;
-use super::{Cause, Network};
+use super::{About, Cause, Network};
 use crate::intrinsic::{Fault, Inputs, Now, Outputs};
 use crate::language::{Input, Name};
 use crate::structure::NodeId;
@@ -53,9 +53,9 @@ pub(crate) enum Refusal {
 /// What the network reaches beyond its instances.
 pub(crate) trait Surroundings {
     /// Hands a message to a display node.
-    fn node(&mut self, to: NodeId, input: Input, value: &Value) -> Result<(), Refusal>;
-    /// The name of a display node and what kind of node it is.
-    fn node_name(&self, to: NodeId) -> (Name, &'static str);
+    fn feed(&mut self, to: NodeId, input: Input, value: &Value) -> Result<(), Refusal>;
+    /// The name of a display node, and what reports say of it.
+    fn node(&self, to: NodeId) -> (Name, About);
     /// Sees a message that reached the host.
     fn sink_arrived(&mut self, sink: SinkId, value: &Value);
     /// Looks up an input by name, for F:SEND.
@@ -140,28 +140,26 @@ impl Network {
     }
 
     fn fire_any(&mut self, id: InstanceId, outside: &mut impl Surroundings) {
-        let cause = match self.act(id, Behaviour::fire) {
-            Ok(()) => {
-                self.queues.consume(id);
-                None
-            }
+        match self.act(id, Behaviour::fire) {
+            Ok(()) => self.queues.consume(id),
             Err(Fault::Domain { why }) => {
+                let message = self.queues.first_waiting(id);
+                self.report_message(id, Cause::Domain { why }, || message);
                 self.queues.consume(id);
-                Some(Cause::Domain { why })
             }
             Err(Fault::Kind { input, expected }) => {
                 let port = self.queues.ports(id).get(usize::from(input).wrapping_sub(1));
-                let got = port.and_then(|port| port.front()).map(Value::kind);
+                if let Some(offending) = port.and_then(|port| port.front()).cloned() {
+                    let input = Input::Number(input.into());
+                    let cause = Cause::Kind {
+                        input,
+                        expected,
+                        got: offending.kind(),
+                    };
+                    self.report_message(id, cause, || Some((Some(input), offending)));
+                }
                 self.queues.consume_offending(id, input);
-                got.map(|got| Cause::Kind {
-                    input: Input::Number(input.into()),
-                    expected,
-                    got,
-                })
             }
-        };
-        if let Some(cause) = cause {
-            self.report(id, cause);
         }
         self.queues.enqueue_if_ready(id);
         self.send_all(id, outside);

@@ -4,7 +4,7 @@ use super::connection::{Inlet, InstanceId, Outlet, SinkId};
 use super::queues::{Full, Hindrance};
 use super::run::{Refusal, Surroundings};
 use super::token::Token;
-use super::{Cause, Network, Watched};
+use super::{About, Cause, Network, Watched};
 use crate::intrinsic::Errand;
 use crate::language::Input;
 use crate::value::Value;
@@ -33,7 +33,7 @@ impl Network {
         outside: &mut impl Surroundings,
     ) {
         if !token.is_finite() {
-            return self.report(from.from, Cause::NotFinite);
+            return self.report_message(from.from, Cause::NotFinite, || Some((None, token.value())));
         }
         let Some(output) = self.outputs.get_mut(at) else {
             return;
@@ -122,8 +122,8 @@ impl Network {
             (Inlet::Function { .. }, None) => {}
             (Inlet::Sink { to, input }, _) => self.deliver_to_sink(to, input, value, outside),
             (Inlet::Node { to, input }, _) => {
-                if let Err(refusal) = outside.node(to, input, value) {
-                    let (name, what) = outside.node_name(to);
+                if let Err(refusal) = outside.feed(to, input, value) {
+                    let (name, about) = outside.node(to);
                     let cause = match refusal {
                         Refusal::Kind(expected) => Cause::Kind {
                             input,
@@ -132,7 +132,7 @@ impl Network {
                         },
                         Refusal::Domain(why) => Cause::Domain { why },
                     };
-                    self.reports.note(&name, || format!("{what} node"), cause);
+                    self.reports.note(&name, || about.message(input, value), cause);
                 }
             }
         }
@@ -158,7 +158,7 @@ impl Network {
                 Err(Full::Network) => Cause::NetworkFull,
             },
         };
-        self.report(to, cause);
+        self.report_message(to, cause, || Some((Some(at), value.clone())));
     }
 
     fn deliver_to_sink(&mut self, to: SinkId, input: u8, value: &Value, outside: &mut impl Surroundings) {
@@ -182,8 +182,13 @@ impl Network {
         } else {
             return self.arrived.push_back((to, input, value.clone()));
         };
+        self.report_sink(to, input, value, cause);
+    }
+
+    pub(super) fn report_sink(&mut self, to: SinkId, input: u8, value: &Value, cause: Cause) {
         if let Some(sink) = self.sinks.get(to.0 as usize) {
-            self.reports.note(&sink.name, || "host input".to_owned(), cause);
+            let about = || About::new("host input").message(Input::Number(input.into()), value);
+            self.reports.note(&sink.name, about, cause);
         }
     }
 

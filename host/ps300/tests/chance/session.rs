@@ -4,7 +4,7 @@ use super::commands::{LITERALS, LIVELY, NAMES, REMEMBERING, anything, example, l
 use super::{Dice, pick};
 use ps300::language::Input;
 use ps300::network::Watched;
-use ps300::{Kinds, Limits, Machine, Value};
+use ps300::{Kinds, Limits, Machine, Report, Value};
 
 /// Things done in one session: more of them find nothing that fewer do not.
 const ACTS_MAX: usize = 96;
@@ -207,7 +207,12 @@ impl Play {
         self.machine
             .drain_sinks(|_, name, input, value| arrived.push((name.to_owned(), input, value)));
         watched.extend(self.machine.drain_watched());
-        reports.extend(self.machine.reports().iter().map(ToString::to_string));
+        // Where something was made is another place once its program has been printed.
+        let placeless = |mut report: Report| {
+            report.made = None;
+            report.to_string()
+        };
+        reports.extend(self.machine.reports().into_iter().map(placeless));
         &self.heard
     }
 

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use rig::document::Findings;
 
+use super::trouble::Troubles;
 use super::{diagnostics, program};
 use crate::command::check::report;
 use crate::console::Console;
@@ -29,9 +30,12 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let mut found = Findings::default();
-    program::load(&args.files, console, &mut found);
+    let mut machine = program::load(&args.files, console, &mut found);
     diagnostics::sort(&mut found);
     report(&found, console)?;
+    let mut troubles = Troubles::default();
+    troubles.add(machine.secs(), machine.reports());
+    troubles.show(console);
     if found.errors.is_empty() {
         console.remark("in order");
         Ok(Exit::Done)

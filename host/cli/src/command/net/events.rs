@@ -4,12 +4,13 @@
 //! events only; `--dial` and `--key` are short for the most frequent.
 
 use ps300::Value;
-use ps300::language::{self, Command, Definition, Name, Payload};
+use ps300::language::{self, Command, Definition, Name, Payload, Position};
+use ps300::network::{Made, Places};
 use rig::document::source::Source;
 use rig::document::{FileError, Findings};
 
-use super::diagnostics;
 use super::run::Watch;
+use super::{diagnostics, program};
 
 /// One thing that happens.
 #[derive(Clone, Debug)]
@@ -34,8 +35,9 @@ pub(super) enum Doing {
         /// For what is said about it.
         place: Option<FileError>,
     },
-    /// A command is given, with its place for what is said about it. Boxed: commands can be large.
-    Command(Box<(Command, FileError)>),
+    /// A command is given, with its place for what is said about it and about what it makes. Boxed: commands can
+    /// be large.
+    Command(Box<(Command, FileError, Made)>),
 }
 
 impl Event {
@@ -98,6 +100,7 @@ pub(super) fn key(text: &str) -> Result<Event, String> {
 pub(super) fn read(source: &Source, found: &mut Findings) -> Vec<Event> {
     let mut events: Vec<Event> = Vec::new();
     let mut latest_secs = 0.0;
+    let places = Places::new(&program::called(source), source.text());
     for (index, line) in source.text().lines().enumerate() {
         let number = index as u32 + 1;
         let trimmed = line.trim();
@@ -134,10 +137,12 @@ pub(super) fn read(source: &Source, found: &mut Findings) -> Vec<Event> {
         }
         diagnostics::note(source, begins, remarks, found);
         events.extend(commands.into_iter().map(|located| {
-            let place = diagnostics::place(begins, (located.at.line, located.at.column));
+            let (line, column) = diagnostics::place(begins, (located.at.line, located.at.column));
+            let error = source.error_at((line, column), "");
+            let made = places.at(Position { line, column });
             Event {
                 secs: latest_secs,
-                doing: Doing::Command(Box::new((located.what, source.error_at(place, "")))),
+                doing: Doing::Command(Box::new((located.what, error, made))),
             }
         }));
     }

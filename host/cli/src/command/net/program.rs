@@ -6,6 +6,7 @@ use ps300::Machine;
 use ps300::language::{self, Command, Definition, Diagnostic, Located, Name, Severity};
 use ps300::machine::ExecuteError;
 use ps300::machine::devices::READOUTS;
+use ps300::network::{Made, Places};
 use ps300::value::Kinds;
 use rig::document::Findings;
 use rig::document::source::Source;
@@ -68,10 +69,17 @@ pub(super) fn load(files: &[PathBuf], console: &Console, found: &mut Findings) -
     let mut machine = machine();
     for source in sources(files, console, found) {
         declare_links(&mut machine, &language::parse(source.text()).0);
-        let remarks = machine.load(source.text());
+        let remarks = machine.load_named(&called(&source), source.text());
         diagnostics::note(&source, (1, 1), remarks, found);
     }
     machine
+}
+
+/// What reports call a file: its name without folders.
+pub(super) fn called(source: &Source) -> String {
+    let path = source.path();
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
 }
 
 /// The same, watching outputs from the moment they are there: a file may set off messages itself.
@@ -97,8 +105,10 @@ pub(super) fn load_watched(
             .into_iter()
             .filter(|remark| remark.severity == Severity::Error);
         diagnostics::note(&source, (1, 1), errors, found);
+        let name = called(&source);
+        let places = Places::new(&name, source.text());
         for Located { at, what } in &commands {
-            if let Err(error) = execute(&mut machine, what, watches) {
+            if let Err(error) = execute(&mut machine, what, places.at(*at), watches) {
                 let remark = if is_lost_message(&error) {
                     Diagnostic::warning(*at, error.to_string())
                 } else {
@@ -122,13 +132,14 @@ fn sources(files: &[PathBuf], console: &Console, found: &mut Findings) -> Vec<So
     sources
 }
 
-/// Executes one command; an output that it makes is watched if asked for.
+/// Executes one command of a text; an output that it makes is watched if asked for.
 pub(super) fn execute(
     machine: &mut Machine,
     command: &Command,
+    made: Made,
     watches: &[Watch],
 ) -> Result<(), ExecuteError> {
-    machine.execute(command)?;
+    machine.execute_at(command, made)?;
     match command {
         Command::Define {
             name,

@@ -208,8 +208,8 @@ impl Session<'_> {
                 }
             }
             Doing::Command(given) => {
-                let (command, place) = &**given;
-                if let Err(error) = program::execute(&mut self.machine, command, self.watches) {
+                let (command, place, made) = &**given;
+                if let Err(error) = program::execute(&mut self.machine, command, made.clone(), self.watches) {
                     let mut warning = place.clone();
                     warning.message = error.to_string();
                     self.console.warn(&[warning]);

@@ -20,6 +20,8 @@ struct TroubleRecord<'a> {
     report: String,
     name: &'a str,
     what: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    made: Option<String>,
     count: u32,
     t: f64,
 }
@@ -46,6 +48,7 @@ impl Troubles {
                     report: report.to_string(),
                     name: report.name.as_str(),
                     what: &report.what,
+                    made: report.made.as_ref().map(ToString::to_string),
                     count: report.count,
                     t: nanos(*secs),
                 });
