@@ -7,6 +7,7 @@ mod inking;
 mod mirror;
 mod objects;
 mod pages;
+mod patched;
 mod paths;
 mod pickup_banks;
 mod pictures;

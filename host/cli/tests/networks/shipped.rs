@@ -21,7 +21,7 @@ const AFTER: &[(&str, &[&str])] = &[
 ];
 
 /// All network files below `networks`, as paths from there.
-fn shipped() -> Vec<String> {
+pub(crate) fn shipped() -> Vec<String> {
     fn collect(folder: &Path, into: &mut Vec<String>) {
         for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("readable").path();
@@ -41,7 +41,7 @@ fn shipped() -> Vec<String> {
 }
 
 /// What is loaded to have one, in order.
-fn with_what_it_needs(name: &str) -> Vec<&str> {
+pub(crate) fn with_what_it_needs(name: &str) -> Vec<&str> {
     let needed = AFTER.iter().find(|(after, _)| *after == name);
     let mut names: Vec<&str> = needed.map(|(_, before)| before.to_vec()).unwrap_or_default();
     names.push(name);
@@ -78,7 +78,7 @@ fn every_shipped_show_is_in_order() {
 }
 
 /// What a hand does next.
-fn act(draws: &mut Draws) -> impl Fn(&mut Hands) + use<> {
+pub(crate) fn act(draws: &mut Draws) -> impl Fn(&mut Hands) + use<> {
     let (what, key, dial) = (
         draws.below(3),
         draws.below(12) as i32 + 1,
