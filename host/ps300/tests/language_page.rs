@@ -36,20 +36,11 @@ fn reference() -> String {
                 "\n#### {}\n\n`{written}`\n\n{}\n",
                 form.keyword, form.meaning
             );
-            // What the machine answers to is not among the examples that must run without a word.
-            let language = if answers(form) { "text" } else { "ps300" };
-            let _ = write!(page, "\n```{language}\n{}\n```\n", form.example);
+            let _ = write!(page, "\n```ps300\n{}\n```\n", form.example);
             let _ = write!(page, "\n{} · {}\n", form.confidence.name(), form.source);
         }
     }
     page
-}
-
-/// Whether the machine has something to say to a command of the example.
-fn answers(form: &Form) -> bool {
-    let mut machine = Machine::new();
-    machine.load(form.example);
-    machine.reports().iter().any(|report| &*report.what == "command")
 }
 
 fn place() -> PathBuf {
@@ -130,8 +121,7 @@ fn every_example_is_read_printed_and_executed() {
         let mut machine = Machine::new();
         let diagnostics = machine.load(form.example);
         assert!(diagnostics.is_empty(), "{}: {diagnostics:#?}", form.keyword);
-        let mut reports = machine.reports();
-        reports.retain(|report| &*report.what != "command");
+        let reports = machine.reports();
         assert!(reports.is_empty(), "{}: {reports:#?}", form.keyword);
         let text = machine.network_text();
         let mut second = Machine::new();

@@ -129,7 +129,7 @@ pub(super) const FORMS: &[Form] = &[
         keyword: "RESERVE_WORKING_STORAGE",
         form: "RESERVE_WORKING_STORAGE n;",
         example: "RESERVE_WORKING_STORAGE 100000;",
-        meaning: "Memory for rendering, needed before polygons were rendered. Taken with a remark, and without effect.",
+        meaning: "Memory for rendering, needed before polygons were rendered. Taken, and without effect here.",
         source: "recollected; operand as in D0's call PRSVST; that it does nothing ours",
         confidence: High,
     },
