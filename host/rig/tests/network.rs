@@ -9,7 +9,7 @@ use device::{Clock, VirtualClock};
 use ps300::value::Value;
 use rig::document::{self, NetworkFile, Show};
 use rig::journal::{Digest, Recorder, Script};
-use rig::{Command, Found, NetworkEdit, NetworkLook, Ports, Profiles, Rig, RigOptions, Snapshot};
+use rig::{Command, Found, Live, NetworkEdit, NetworkLook, Ports, Profiles, Rig, RigOptions, Snapshot};
 
 /// A clock that streams into a sum, and beside it something to edit.
 const NETWORK: &str = "{ beats }
@@ -280,4 +280,52 @@ fn edits_replay() {
         seen.digest(&mut again);
         assert_eq!(&again.hex(), digest);
     }
+}
+
+#[test]
+fn edits_through_the_running_rig_disturb_no_step() {
+    let stage = Stage::new(None);
+    let clock: Arc<dyn Clock> = Arc::new(stage.clock.clone());
+    let steps: Arc<Mutex<Vec<Arc<Snapshot>>>> = Arc::default();
+    let seen = Arc::clone(&steps);
+    let live = Live::start(stage.rig, clock, move |snapshot| {
+        seen.lock().expect("nobody panics").push(Arc::clone(snapshot));
+    })
+    .expect("the thread starts");
+    let taken = || steps.lock().expect("nobody panics").len();
+    live.send(Command::LookAtNetwork(true));
+    for round in 0..200 {
+        let name = round % 5;
+        let edit = match round % 8 {
+            0 | 3 => format!("f{name} := F:ACCUMULATE; CONNECT beat<1>:<1>f{name};"),
+            1 => format!("CONNECT sum<1>:<1>f{name};"),
+            5 => format!("DELETE f{name};"),
+            _ => String::new(),
+        };
+        live.send(Command::Network(match round % 8 {
+            2 | 6 => NetworkEdit::Undo,
+            4 | 7 => NetworkEdit::Redo,
+            _ => NetworkEdit::Commands(edit),
+        }));
+        let before = taken();
+        while taken() == before {
+            std::thread::yield_now();
+        }
+    }
+    live.close();
+    let steps = steps.lock().expect("nobody panics");
+    let last = steps.last().expect("it went on");
+    for two in steps.windows(2) {
+        assert_eq!(two[1].step, two[0].step + 1);
+        assert!((two[1].at_secs - two[0].at_secs - 0.01).abs() < 1e-9);
+    }
+    let look = last.network.as_ref().expect("somebody looks");
+    let out = look.picture.find(&"out".into()).expect("nobody deleted it");
+    let held = &look.activity.inputs[look.picture.boxes[out].first_input].front;
+    let sum = held.as_ref().and_then(Value::as_number);
+    assert_eq!(
+        sum,
+        Some(2.0 * beats((last.step - 1) as f64)),
+        "every beat was heard"
+    );
 }
