@@ -4,6 +4,7 @@
 
 mod dice;
 mod memory;
+mod record;
 mod rows;
 mod time;
 mod trial;

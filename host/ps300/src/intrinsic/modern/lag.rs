@@ -15,8 +15,8 @@ pub(super) const TABLE: &[Spec] = &[Spec::clock(
     |_| Box::<Lag>::default(),
 )
 .says(
-    "Follows <1> as if drawn by a spring: <2> is its time constant in seconds, after four of \
-             which hardly anything is left to go; <3> its damping, 1 for none too far, less for \
+    "Follows <1> as if drawn by a spring: <2> is its time constant in seconds, after seven of \
+             which less than a hundredth is left to go; <3> its damping, 1 for none too far, less for \
              swinging beyond and back, more for creeping. Sent at every tick until it rests. The \
              first message passes at once. A time constant that is not positive or a negative damping \
              is reported, and it stands still.",
