@@ -10,6 +10,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use glam::DVec3;
+use ps300::display::DisplayList;
 use rig::{FigureView, NetworkLook, NoteLevel, PuppetView, Snapshot};
 
 use crate::panels::{joints, view};
@@ -99,10 +100,12 @@ pub(crate) fn fingerprint(seen: &Snapshot) -> u64 {
     for stroke in &seen.display.strokes {
         hash_point(stroke.from, h);
         hash_point(stroke.to, h);
-        [stroke.hue_deg, stroke.saturation, stroke.intensity]
+        let [begin, end] = stroke.intensity;
+        [stroke.hue_deg, stroke.saturation, begin, end]
             .map(f64::to_bits)
             .hash(h);
     }
+    hash_faces(&seen.display, h);
     hash_desk(seen, h);
     if let Some(network) = &seen.network {
         hash_network(network, h);
@@ -118,6 +121,27 @@ pub(crate) fn fingerprint(seen: &Snapshot) -> u64 {
 
 fn hash_point(point: DVec3, h: &mut DefaultHasher) {
     point.to_array().map(f64::to_bits).hash(h);
+}
+
+fn hash_faces(display: &DisplayList, h: &mut DefaultHasher) {
+    for face in &display.faces {
+        (face.fill as u8, face.front, face.back, face.lights.start).hash(h);
+    }
+    for corner in &display.corners {
+        hash_point(corner.at, h);
+        hash_point(corner.normal, h);
+    }
+    for material in &display.materials {
+        hash_point(material.colour, h);
+        [material.opaque, material.diffuse, material.specular]
+            .map(f64::to_bits)
+            .hash(h);
+    }
+    for light in &display.lights {
+        hash_point(light.towards, h);
+        hash_point(light.colour, h);
+        light.ambient.to_bits().hash(h);
+    }
 }
 
 fn hash_figure(figure: &FigureView, h: &mut DefaultHasher) {

@@ -20,6 +20,19 @@ pub enum Picked {
     Polygon,
 }
 
+impl Picked {
+    /// The number F:PICKINFO gives it. Our choice.
+    pub fn code(self) -> i32 {
+        match self {
+            Self::Vectors => 0,
+            Self::Characters => 1,
+            Self::Labels => 2,
+            Self::Curve => 3,
+            Self::Polygon => 4,
+        }
+    }
+}
+
 /// One picked element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pick {
@@ -33,7 +46,14 @@ pub struct Pick {
     pub kind: Picked,
     /// 2 for lists written in two dimensions.
     pub dimension: u8,
-    /// Where on the element, in the node's own space.
+    /// Where, if PICK was told to say.
+    pub spot: Option<Spot>,
+}
+
+/// The point of a picked element that is nearest to the middle of the pick window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// In the node's own space; of a character, its lower left corner.
     pub at: DVec3,
     /// How far along the line or curve, 0 to 1.
     pub along: f64,

@@ -41,7 +41,7 @@ pub enum Value {
     Matrix4x3(Arc<DAffine3>),
     /// `VL(name)`: the vectors of a list, as it is when the command is executed.
     Vectors(Arc<VectorList>),
-    /// What PICK found, outermost match first; no literal.
+    /// What PICK found, nearest first; no literal.
     Picks(Arc<[Pick]>),
 }
 

@@ -418,11 +418,11 @@ fn long_names_and_many_instances_are_only_slow_never_wrong() {
     let mut m = machine(&format!("{name} := F:NOP; SEND 1 TO <1>{name};"));
     assert!(m.is_defined(&name.to_uppercase()));
     let mut few = Machine::with_limits(Limits {
-        instances_max: 11,
+        instances_max: 13,
         ..Limits::default()
     });
     let got = errors(&mut few, "a := F:NOP; b := F:NOP; c := F:NOP; d := F:NOP;");
-    assert_eq!(got, ["1:37: error: there are 11 instances already; delete some"]);
+    assert_eq!(got, ["1:37: error: there are 13 instances already; delete some"]);
     assert!(reports(&mut m).is_empty());
 }
 

@@ -232,7 +232,7 @@ fn bone(length: f64) -> Stroke {
         to: glam::DVec3::Z * length,
         hue_deg: 0.0,
         saturation: 0.0,
-        intensity: 1.0,
+        intensity: [1.0; 2],
         view: 0,
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motion::figure::Placed;
-use ps300::display::Stroke as Vector;
+use ps300::display::{Stroke as Vector, rgb};
 
 use super::scene::{Ink, Layer, Mark, Scene};
 use super::theme::{self, Rgb};
@@ -100,7 +100,7 @@ pub fn add(scene: &mut Scene, placed: &[Placed], shapes: &[Vec<Vector>], style: 
 
 fn tinted_with(colour: Rgb, vector: &Vector) -> Rgb {
     colour.mix(
-        colour_of(vector.hue_deg, vector.saturation, vector.intensity),
+        colour_of(vector.hue_deg, vector.saturation, vector.intensity[0]),
         TINT * vector.saturation as f32,
     )
 }
@@ -109,14 +109,12 @@ fn tinted_with(colour: Rgb, vector: &Vector) -> Rgb {
 /// 0 black … 1 full.
 /// Source: PS 300 Document Set, SET COLOR; TR-88-032, colour tables.
 pub fn colour_of(hue_deg: f64, saturation: f64, intensity: f64) -> Rgb {
-    let full = |peak_deg: f64| {
-        let away = (hue_deg - peak_deg).rem_euclid(360.0);
-        let away = away.min(360.0 - away);
-        let pure = ((120.0 - away) / 60.0).clamp(0.0, 1.0);
-        let grey = 1.0 - saturation.clamp(0.0, 1.0) * (1.0 - pure);
-        (grey * intensity.clamp(0.0, 1.0) * 255.0).round() as u8
-    };
-    Rgb(full(120.0), full(240.0), full(0.0))
+    let bytes = rgb(hue_deg, saturation, intensity) * 255.0;
+    Rgb(
+        bytes.x.round() as u8,
+        bytes.y.round() as u8,
+        bytes.z.round() as u8,
+    )
 }
 
 #[cfg(test)]

@@ -7,7 +7,8 @@
 use glam::DVec3;
 
 use super::camera::Camera;
-use super::scene::{Ink, Mark, Place, Scene};
+use super::depth::{self, Depths, Plate};
+use super::scene::{Ink, Layer, Mark, Place, Scene, Stroke};
 use super::theme::{self, Rgb};
 
 /// A rectangle of a picture, and how many of its pixels make one point.
@@ -43,7 +44,7 @@ impl Viewport {
         Viewport { scale, ..self }
     }
 
-    fn pixel(&self, camera: &Camera, world: DVec3) -> ([f32; 2], f64) {
+    pub(super) fn pixel(&self, camera: &Camera, world: DVec3) -> ([f32; 2], f64) {
         let seen = camera.project(world);
         let half = f64::from(self.height) / 2.0;
         let x = f64::from(self.x) + f64::from(self.width) / 2.0 + seen.x * half;
@@ -114,6 +115,10 @@ pub struct Text {
 pub struct Flat {
     /// Lines and marks, first to last.
     pub pieces: Vec<Piece>,
+    /// How many of them lie under the surfaces.
+    pub under: usize,
+    /// The surfaces.
+    pub plate: Option<Plate>,
     /// Text, over everything.
     pub texts: Vec<Text>,
 }
@@ -124,34 +129,24 @@ const CUE_STEP: f64 = 0.06;
 impl Flat {
     /// Projects `scene` into `port` and puts it into painting order.
     pub fn new(scene: &Scene, port: &Viewport) -> Flat {
+        let surfaces = if scene.surfaces.is_empty() {
+            None
+        } else {
+            Some(depth::cast(&scene.surfaces, &scene.camera, port))
+        };
         let mut ordered: Vec<(Ink, f64, Piece)> = Vec::with_capacity(scene.strokes.len() * 2);
+        let depths = surfaces.as_ref().map(|(depths, _)| depths);
         for stroke in &scene.strokes {
-            let (_, from_depth) = port.pixel(&scene.camera, stroke.from);
-            let (_, to_depth) = port.pixel(&scene.camera, stroke.to);
-            let steps = if stroke.ink.cued {
-                let span = (from_depth.clamp(-1.0, 1.0) - to_depth.clamp(-1.0, 1.0)).abs() / 2.0;
-                (span / CUE_STEP).ceil().clamp(1.0, 32.0) as u32
-            } else {
-                1
-            };
-            for step in 0..steps {
-                let at = |s: u32| stroke.from.lerp(stroke.to, f64::from(s) / f64::from(steps));
-                let (from, near) = port.pixel(&scene.camera, at(step));
-                let (to, far) = port.pixel(&scene.camera, at(step + 1));
-                let depth = f64::midpoint(near, far);
-                let shape = Shape::Line {
-                    from,
-                    to,
-                    width: stroke.width * port.scale,
-                };
-                ordered.push((
-                    stroke.ink,
-                    depth,
-                    Piece {
-                        shape,
-                        colour: inked(stroke.ink, depth),
-                    },
-                ));
+            let hidden_by = depths.filter(|_| stroke.ink.layer == Layer::Figure);
+            add_stroke(stroke, &scene.camera, port, hidden_by, &mut ordered);
+        }
+        for (surface, seen) in scene
+            .surfaces
+            .iter()
+            .zip(surfaces.iter().flat_map(|(_, seen)| seen))
+        {
+            for edge in surface.edges.iter().filter(|_| *seen) {
+                add_stroke(edge, &scene.camera, port, depths, &mut ordered);
             }
         }
         for dot in &scene.dots {
@@ -174,6 +169,11 @@ impl Flat {
         // Depth in steps of 1e-6 for the same reason as the pixels; the sort is stable.
         ordered.sort_by_key(|(ink, depth, _)| (ink.layer, (depth.clamp(-1e6, 1e6) * 1e6).round() as i64));
         Flat {
+            under: ordered
+                .iter()
+                .take_while(|(ink, ..)| ink.layer < Layer::Figure)
+                .count(),
+            plate: depths.and_then(Depths::plate),
             pieces: ordered.into_iter().map(|(_, _, piece)| piece).collect(),
             texts: scene
                 .labels
@@ -182,6 +182,79 @@ impl Flat {
                 .collect(),
         }
     }
+}
+
+/// The way along a line between two looks at what hides it, pixels.
+const LOOK_STEP: f64 = 1.0;
+/// Looks along one line; a longer one is looked at more coarsely.
+const LOOKS_MAX: f64 = 4096.0;
+
+/// Adds a line in pieces no longer than the depth cue allows, and only where no surface hides it.
+fn add_stroke(
+    stroke: &Stroke,
+    camera: &Camera,
+    port: &Viewport,
+    depths: Option<&Depths>,
+    ordered: &mut Vec<(Ink, f64, Piece)>,
+) {
+    let (from, from_depth) = port.pixel(camera, stroke.from);
+    let (to, to_depth) = port.pixel(camera, stroke.to);
+    let cued = if stroke.ink.cued {
+        (from_depth.clamp(-1.0, 1.0) - to_depth.clamp(-1.0, 1.0)).abs() / 2.0
+    } else {
+        0.0
+    };
+    let faded = f64::from((stroke.to_strength - stroke.ink.strength).abs());
+    let Some(depths) = depths else {
+        let steps = (cued.max(faded) / CUE_STEP).ceil().clamp(1.0, 32.0) as u32;
+        let share = |step: u32| f64::from(step) / f64::from(steps);
+        for step in 0..steps {
+            add_piece(stroke, camera, port, [share(step), share(step + 1)], ordered);
+        }
+        return;
+    };
+    let length = f64::from(to[0] - from[0]).hypot(f64::from(to[1] - from[1]));
+    let looks = (length / LOOK_STEP).ceil().clamp(1.0, LOOKS_MAX) as u32;
+    let pieces = (cued.max(faded) / CUE_STEP).ceil().clamp(1.0, 32.0);
+    let longest = (f64::from(looks) / pieces).ceil().max(1.0) as u32;
+    let mut begin = None;
+    for look in 0..=looks {
+        // Looks are at the middles of steps; behind the last there is nothing.
+        let share = (f64::from(look) + 0.5) / f64::from(looks);
+        let along = |a: f32, b: f32| f64::from(a) + f64::from(b - a) * share;
+        let at = [along(from[0], to[0]), along(from[1], to[1])];
+        let seen = look < looks && depths.shows(at, from_depth + (to_depth - from_depth) * share);
+        let full = begin.is_some_and(|begin| look - begin >= longest);
+        if let (Some(first), true) = (begin, !seen || full) {
+            let part = [f64::from(first), f64::from(look)].map(|at| at / f64::from(looks));
+            add_piece(stroke, camera, port, part, ordered);
+            begin = None;
+        }
+        if seen && begin.is_none() {
+            begin = Some(look);
+        }
+    }
+}
+
+/// Adds the part of a line between two shares of it.
+fn add_piece(
+    stroke: &Stroke,
+    camera: &Camera,
+    port: &Viewport,
+    part @ [begin, end]: [f64; 2],
+    ordered: &mut Vec<(Ink, f64, Piece)>,
+) {
+    let [(from, near), (to, far)] = part.map(|share| port.pixel(camera, stroke.from.lerp(stroke.to, share)));
+    let depth = f64::midpoint(near, far);
+    let middle = f64::midpoint(begin, end) as f32;
+    let strength = stroke.ink.strength + (stroke.to_strength - stroke.ink.strength) * middle;
+    let shape = Shape::Line {
+        from,
+        to,
+        width: stroke.width * port.scale,
+    };
+    let colour = inked(stroke.ink.faded(strength), depth);
+    ordered.push((stroke.ink, depth, Piece { shape, colour }));
 }
 
 fn text(label: &super::scene::Label, scene: &Scene, port: &Viewport) -> Text {
@@ -213,7 +286,8 @@ fn inked(ink: Ink, depth: f64) -> Rgb {
     let cue = if ink.cued {
         let near = f32::midpoint(depth.clamp(-1.0, 1.0) as f32, 1.0);
         // The root keeps the middle of the picture bright and lets only the far half sink.
-        theme::CUE_FAR + (1.0 - theme::CUE_FAR) * near.sqrt()
+        let [far_strength, near_strength] = ink.cue;
+        far_strength + (near_strength - far_strength) * near.sqrt()
     } else {
         1.0
     };
@@ -223,7 +297,6 @@ fn inked(ink: Ink, depth: f64) -> Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::scene::Layer;
 
     fn looking_ahead() -> Scene {
         Scene::new(Camera::turned(0.0, 0.0, DVec3::ZERO, 1.0))

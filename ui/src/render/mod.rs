@@ -5,6 +5,7 @@
 //! here knows egui.
 
 pub mod camera;
+pub mod depth;
 pub mod figure;
 pub mod film;
 pub mod flat;

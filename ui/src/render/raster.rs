@@ -4,6 +4,7 @@
 
 use tiny_skia::{Color, FillRule, LineCap, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
+use super::depth::Plate;
 use super::flat::{Flat, Piece, Shape, Viewport};
 use super::picture::Picture;
 use super::scene::{Mark, Scene};
@@ -34,7 +35,14 @@ impl Canvas {
 
     /// Paints a projected scene over what is there.
     pub fn paint(&mut self, flat: &Flat) {
-        for piece in &flat.pieces {
+        let (under, over) = flat.pieces.split_at(flat.under.min(flat.pieces.len()));
+        for piece in under {
+            self.piece(piece);
+        }
+        if let Some(plate) = &flat.plate {
+            self.plate(plate);
+        }
+        for piece in over {
             self.piece(piece);
         }
         for text in &flat.texts {
@@ -49,6 +57,21 @@ impl Canvas {
                 [text.at[0] - width, text.at[1]],
                 text.colour,
             );
+        }
+    }
+
+    /// Lays filled surfaces over what is there.
+    fn plate(&mut self, plate: &Plate) {
+        let (width, height) = (self.pixels.width(), self.pixels.height());
+        let pixels = self.pixels.data_mut();
+        for (index, rgba) in plate.rgba.chunks_exact(4).enumerate() {
+            let x = plate.x + index as u32 % plate.width;
+            let y = plate.y + index as u32 / plate.width;
+            if x < width && y < height && rgba[3] > 0 {
+                let at = ((y * width + x) * 4) as usize;
+                let colour = Rgb(rgba[0], rgba[1], rgba[2]);
+                cover(&mut pixels[at..at + 4], colour, f32::from(rgba[3]) / 255.0);
+            }
         }
     }
 

@@ -2,9 +2,10 @@
 //! the screen, and a camera. Both renderers (processor and graphics card) and all films start here.
 
 use glam::DVec3;
+use ps300::display::{Corner, Fill, Light, Material};
 
 use super::camera::Camera;
-use super::theme::Rgb;
+use super::theme::{self, Rgb};
 
 /// Which things lie over which, regardless of depth; inside a layer the nearer lies over the farther.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,6 +32,8 @@ pub struct Ink {
     pub strength: f32,
     /// Whether distance takes brightness away.
     pub cued: bool,
+    /// How much of the strength is left at the far end and at the near end, where it does.
+    pub cue: [f32; 2],
     /// What it lies over.
     pub layer: Layer,
 }
@@ -42,6 +45,7 @@ impl Ink {
             colour,
             strength: 1.0,
             cued: true,
+            cue: [theme::CUE_FAR, 1.0],
             layer,
         }
     }
@@ -68,8 +72,33 @@ pub struct Stroke {
     pub to: DVec3,
     /// Width, points.
     pub width: f32,
-    /// Colour.
+    /// Colour, and strength at `from`.
     pub ink: Ink,
+    /// Strength at `to`.
+    pub to_strength: f32,
+}
+
+/// A surface with a border, seen from either side; lines and other surfaces behind it are hidden.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// The borders, each corner in the world; what lies inside an odd number of them is filled.
+    pub corners: Vec<Corner>,
+    /// What is drawn inside.
+    pub fill: Fill,
+    /// Whether nothing of it is drawn where it is seen from behind.
+    pub one_sided: bool,
+    /// On either side; where it points away from the viewer, it and the corners' are turned round.
+    pub normal: DVec3,
+    /// Towards the viewer in the space of normals and lights; nothing where that is the world.
+    pub viewer: Option<DVec3>,
+    /// Of the side whose first border goes clockwise on the screen, and of the other.
+    pub materials: [Material; 2],
+    /// What shines on it.
+    pub lights: Vec<Light>,
+    /// Brightness at the far end and at the near end.
+    pub cue: [f32; 2],
+    /// Lines along it, drawn where it is.
+    pub edges: Vec<Stroke>,
 }
 
 /// The shape of a [`Dot`].
@@ -129,6 +158,8 @@ pub struct Scene {
     pub camera: Camera,
     /// Lines.
     pub strokes: Vec<Stroke>,
+    /// Filled surfaces; they hide what is behind them in [`Layer::Figure`].
+    pub surfaces: Vec<Surface>,
     /// Marks.
     pub dots: Vec<Dot>,
     /// Text.
@@ -141,6 +172,7 @@ impl Scene {
         Scene {
             camera,
             strokes: Vec::new(),
+            surfaces: Vec::new(),
             dots: Vec::new(),
             labels: Vec::new(),
         }
@@ -152,6 +184,7 @@ impl Scene {
         Scene {
             camera: self.camera.side(),
             strokes: self.strokes.clone(),
+            surfaces: self.surfaces.clone(),
             dots: self.dots.clone(),
             labels: Vec::new(),
         }
@@ -159,7 +192,13 @@ impl Scene {
 
     /// Adds a line.
     pub fn stroke(&mut self, from: DVec3, to: DVec3, width: f32, ink: Ink) {
-        self.strokes.push(Stroke { from, to, width, ink });
+        self.strokes.push(Stroke {
+            from,
+            to,
+            width,
+            ink,
+            to_strength: ink.strength,
+        });
     }
 
     /// Adds a line from point to point.

@@ -1,39 +1,81 @@
-//! The network's own display structures: vectors and lettering that no figure has drawn.
+//! The network's own display structures: lines, letters and faces that no figure has drawn.
 //!
 //! A structure with viewing nodes of its own (window, eye) brings its own camera: its lines are put where
-//! that camera shows them, flat in the middle of ours. Everything else lies in the world.
+//! that camera shows them, and as deep. Everything else lies in the world.
 
 use glam::{DVec2, DVec3};
-use ps300::display::{DisplayList, View};
+use ps300::display::{DisplayList, Face, Stroke, View};
 
 use super::camera::Camera;
 use super::figure::colour_of;
-use super::scene::{Ink, Layer, Place, Scene};
+use super::scene::{self, Ink, Layer, Scene, Surface};
 use super::theme;
-
-/// Points of type for lettering as high as half the picture; pictures are about 500 points high.
-const LETTERING_POINTS: f32 = 250.0;
 
 /// Adds everything that is displayed.
 pub fn add(scene: &mut Scene, display: &DisplayList) {
     let camera = scene.camera;
-    let world = |view: u16, point: DVec3| match display.views.get(usize::from(view)) {
-        Some(view) => placed(view, &camera, point),
-        None => point,
-    };
+    let view = |index: u16| display.views.get(usize::from(index));
     for stroke in &display.strokes {
-        let colour = colour_of(stroke.hue_deg, stroke.saturation, stroke.intensity);
-        let (from, to) = (world(stroke.view, stroke.from), world(stroke.view, stroke.to));
-        scene.stroke(from, to, theme::WIDTH_GHOST, Ink::new(colour, Layer::Figure));
+        scene.strokes.push(line(stroke, view(stroke.view), &camera));
     }
-    for lettering in &display.letterings {
-        let colour = colour_of(lettering.hue_deg, lettering.saturation, lettering.intensity);
-        let at = world(lettering.view, lettering.at);
-        let top = world(lettering.view, lettering.at + lettering.up);
-        let height = (at.distance(top) / camera.half_height) as f32 * LETTERING_POINTS;
-        let size = height.clamp(theme::SIZE_SMALL, theme::SIZE_READOUT);
-        let ink = Ink::new(colour, Layer::Overlay);
-        scene.label(Place::World(at, [0.0, -size]), lettering.text.as_ref(), size, ink);
+    for face in &display.faces {
+        let surface = surface(face, display, view(face.view), &camera);
+        scene.surfaces.push(surface);
+    }
+}
+
+fn world(view: Option<&View>, camera: &Camera, point: DVec3) -> DVec3 {
+    view.map_or(point, |view| placed(view, camera, point))
+}
+
+fn line(stroke: &Stroke, view: Option<&View>, camera: &Camera) -> scene::Stroke {
+    let [begin, end] = stroke.intensity.map(|brightness| brightness as f32);
+    let colour = colour_of(stroke.hue_deg, stroke.saturation, 1.0);
+    let ink = Ink::new(colour, Layer::Figure).faded(begin);
+    let own = view.is_some_and(|view| view.screen_from_world.is_some());
+    let said = view.and_then(|view| view.cue);
+    scene::Stroke {
+        from: world(view, camera, stroke.from),
+        to: world(view, camera, stroke.to),
+        width: theme::WIDTH_GHOST,
+        ink: Ink {
+            cued: !own,
+            cue: said.map_or(ink.cue, |cue| cue.map(|brightness| brightness as f32)),
+            ..ink
+        },
+        to_strength: end,
+    }
+}
+
+fn surface(face: &Face, display: &DisplayList, view: Option<&View>, camera: &Camera) -> Surface {
+    let slice = |range: &std::ops::Range<u32>| range.start as usize..range.end as usize;
+    let mut corners = display.corners.get(slice(&face.corners)).unwrap_or(&[]).to_vec();
+    for corner in &mut corners {
+        corner.at = world(view, camera, corner.at);
+    }
+    let edges = display.edges.get(slice(&face.edges)).unwrap_or(&[]);
+    let material = |index: u16| {
+        let found = display.materials.get(usize::from(index));
+        found.copied().unwrap_or_default()
+    };
+    let lights = usize::from(face.lights.start)..usize::from(face.lights.end);
+    let [near, further] = face.cue;
+    let said = view.and_then(|view| view.cue);
+    let cue = match (view.and_then(|view| view.screen_from_world), said) {
+        (Some(_), _) => [near + further, near].map(|brightness| brightness as f32),
+        (None, Some(cue)) => cue.map(|brightness| brightness as f32),
+        (None, None) => [theme::CUE_FAR, 1.0],
+    };
+    Surface {
+        corners,
+        fill: face.fill,
+        one_sided: face.one_sided,
+        normal: face.normal,
+        viewer: face.viewer,
+        materials: [material(face.front), material(face.back)],
+        lights: display.lights.get(lights).unwrap_or(&[]).to_vec(),
+        cue,
+        edges: edges.iter().map(|edge| line(edge, view, camera)).collect(),
     }
 }
 
@@ -42,12 +84,11 @@ fn placed(view: &View, camera: &Camera, point: DVec3) -> DVec3 {
     let Some(screen_from_world) = view.screen_from_world else {
         return point;
     };
-    let screen = screen_from_world.project_point3(point);
-    let [left, right] = view.viewport.horizontal;
-    let [bottom, top] = view.viewport.vertical;
-    let x = left + (right - left) * (screen.x + 1.0) / 2.0;
-    let y = bottom + (top - bottom) * (screen.y + 1.0) / 2.0;
-    camera.centre + camera.view_from_world.transpose() * (DVec2::new(x, y) * camera.half_height).extend(0.0)
+    let screen = view.onto_screen(screen_from_world.project_point3(point));
+    // Depth 0 is the nearest and 1 the farthest of the view, and of the camera's depth cue.
+    let depth = camera.half_depth * (1.0 - 2.0 * screen.z);
+    let onto = (DVec2::new(screen.x, screen.y) * camera.half_height).extend(depth);
+    camera.centre + camera.view_from_world.transpose() * onto
 }
 
 #[cfg(test)]
@@ -66,12 +107,10 @@ mod tests {
         let view = View {
             screen_from_world: Some(DMat4::IDENTITY),
             viewport,
+            cue: None,
         };
-        let seen = camera.project(placed(&view, &camera, DVec3::new(-1.0, 0.5, 0.0)));
-        assert!(
-            (seen.truncate() - DVec2::new(0.0, 0.5)).length() < 1e-12,
-            "{seen}"
-        );
+        let seen = camera.project(placed(&view, &camera, DVec3::new(-1.0, 0.5, 0.25)));
+        assert!((seen - DVec3::new(0.0, 0.5, 0.5)).length() < 1e-12, "{seen}");
         let plain = View {
             screen_from_world: None,
             ..view

@@ -74,7 +74,7 @@ pub(crate) fn shapes() -> Vec<Vec<Stroke>> {
         to: DVec3::from_array(to),
         hue_deg,
         saturation: 1.0,
-        intensity: 1.0,
+        intensity: [1.0; 2],
         view: 0,
     };
     LINKS

@@ -22,22 +22,11 @@ pub const ABSENT: &[Absent] = &[
     absent("ATSCALE", "not known", UNKNOWN),
     absent("CHOP", "not known", UNKNOWN),
     absent(
-        "XFORMDATA",
-        "reads the transform accumulated at a node",
-        "functions do not reach the display tree yet",
-    ),
-    absent(
-        "LIST",
-        "prints special messages line by line",
-        "it goes with XFORMDATA",
-    ),
-    absent(
         "LABEL",
         "builds label items",
         "the form of label messages is not on record; LABELS nodes take strings and vectors as \
              they are",
     ),
-    absent("PICKINFO", "unpacks a pick", "functions do not pick yet"),
     absent("POSITION_LINE", "not known", UNKNOWN),
     absent(
         "CIROUTE",

@@ -24,6 +24,9 @@ pub trait Function: Send {
         Ok(())
     }
 
+    /// What it looked for in the picture was there. Only picks that go on looking do anything.
+    fn found(&mut self) {}
+
     /// Everything its future depends on besides its inputs, in values that have literals wherever the
     /// messages it keeps have. Empty: as new.
     fn remembered(&self) -> Vec<Value>;
@@ -196,6 +199,22 @@ pub(crate) enum Errand {
     },
     /// Send on output `output` what the variable `name` holds.
     Fetch { name: Arc<str>, output: u8 },
+    /// Look at the picture and send what is there.
+    Look(Look),
+}
+
+/// What can be seen in the picture.
+#[derive(Clone, Debug)]
+pub(crate) enum Look {
+    /// What is drawn in the pick window: on output 1, or, if this was the `last` try, FALSE on output 2.
+    Pick { detailed: bool, last: bool },
+    /// What the XFORM node `name` marks: on output 1 and into the node `to`. Of vectors the `part` that begins
+    /// with so many left out and has so many.
+    Transform {
+        name: Arc<str>,
+        to: Option<Arc<str>>,
+        part: [usize; 2],
+    },
 }
 
 /// Where a firing puts what it sends. Delivered in the order of the calls.

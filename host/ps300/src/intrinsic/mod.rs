@@ -15,6 +15,7 @@ mod filter;
 mod function;
 mod gather;
 mod logic;
+mod look;
 mod matrix;
 mod modern;
 mod numbers;
@@ -33,8 +34,9 @@ mod vector;
 mod view;
 
 pub use absent::{ABSENT, Absent};
-pub(crate) use function::Errand;
+pub(crate) use function::{Errand, Look};
 pub use function::{Fault, Function, Inputs, Now, Outputs, TEXT_MAX_BYTES};
+pub(crate) use look::PICK;
 pub use spare::{Message, Spares};
 pub use spec::{Confidence, InputSpec, OutputSpec, Preset, Spec, Times};
 pub(crate) use spec::{Does, Fire, Scalar};
@@ -73,6 +75,10 @@ pub const FAMILIES: &[Family] = &[
     Family {
         title: "Time",
         tables: &[clock::TABLE, timeout::TABLE],
+    },
+    Family {
+        title: "The picture",
+        tables: &[look::TABLE],
     },
     Family {
         title: "Functions of today",

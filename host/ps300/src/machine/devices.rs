@@ -3,7 +3,7 @@
 //! Ordinary names to connect to; commands cannot redefine or delete them, so that the host can rely on
 //! them. Source: `docs/protocols/ps300.md`, "Initial structure: device function instances".
 
-use crate::intrinsic::{Confidence, InputSpec, OutputSpec, Preset, Spec};
+use crate::intrinsic::{Confidence, InputSpec, OutputSpec, PICK, Preset, Spec};
 use crate::value::{Kind, Kinds};
 
 const VECTOR2: OutputSpec = OutputSpec::of(Kinds::of(&[Kind::Vector2]));
@@ -21,7 +21,7 @@ macro_rules! device {
 }
 
 /// What sends: nothing goes in, the host emits.
-pub static SOURCES: [Spec; 8] = [
+pub static SOURCES: [Spec; 10] = [
     device!(
         "DIALS",
         &[REAL, REAL, REAL, REAL, REAL, REAL, REAL, REAL],
@@ -51,6 +51,18 @@ pub static SOURCES: [Spec; 8] = [
         "D0 tablet networks",
         Used
     ),
+    PICK,
+    Spec::pure(
+        "PICK_LOCATION",
+        &[
+            InputSpec::constant(VECTOR2.kinds, Preset::Rule("where the tablet is")),
+            InputSpec::constant(VECTOR2.kinds, Preset::Rule("V2D(0.01,0.01)")),
+        ],
+        &[],
+        |_, _| Ok(()),
+    )
+    .says("Where PICK looks: <1> the middle of the pick window on the screen of -1 to 1, <2> half its width and height.")
+    .known(Confidence::Used, "D0 for <2>; <1> recollected"),
     device!("KEYBOARD", &[STRING], "What was typed.", "recollected", High),
     device!(
         "KBHANDLER",

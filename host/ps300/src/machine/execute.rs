@@ -69,10 +69,7 @@ impl Machine {
                 self.initialize(*what);
                 Ok(())
             }
-            Command::PatternWith { list, pattern } => {
-                self.thing(list)?;
-                self.thing(pattern).map(|_| ())
-            }
+            Command::PatternWith { list, pattern } => self.dash(list, pattern),
             Command::SetupState { name, values } => self.setup_state(name, values),
             Command::BeginGroup
             | Command::EndGroup

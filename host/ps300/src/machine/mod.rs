@@ -16,12 +16,14 @@ mod error;
 mod execute;
 mod group;
 mod load;
+mod look;
 mod panel;
 mod patch;
 pub mod picture;
 mod program;
 mod program_state;
 mod removal;
+mod rendered;
 mod state;
 mod terminal;
 mod tree;
@@ -37,9 +39,8 @@ pub use view::{ConnectionView, InputView, InstanceView, OutputView};
 
 use std::sync::Arc;
 
-use glam::DMat4;
+use glam::{DMat4, DVec2};
 
-use crate::display::DisplayList;
 use crate::intrinsic::Now;
 use crate::language::{Input, Name};
 use crate::names::{NameId, Names, Thing};
@@ -47,7 +48,8 @@ use crate::network::{
     About, Arrival, Cause, Inlet, InstanceId, Limits, Network, Outlet, Ran, Refusal, Report, Role, SinkId,
     Surroundings, Watched,
 };
-use crate::structure::{NodeId, Structure, Walk};
+use crate::pick::Pick;
+use crate::structure::{NodeId, Structure};
 use crate::value::{Kinds, Value};
 use group::Open;
 use panel::Readouts;
@@ -61,6 +63,11 @@ pub struct Machine {
     readouts: Readouts,
     /// In the order of DISPLAY.
     displayed: Vec<NameId>,
+    senders: rendered::Senders,
+    /// The host's own: from the world to the screen.
+    camera: DMat4,
+    /// Where the tablet was when the cursor was last drawn.
+    cursor: DVec2,
     /// Network time of the last tick; the network gets there when the batches before it are over.
     ticked: Now,
     /// Counts commands that may have changed what there is and how it is joined.
@@ -80,6 +87,10 @@ struct Around<'a> {
     structure: &'a mut Structure,
     panel: &'a mut Panel,
     readouts: &'a Readouts,
+    displayed: &'a [NameId],
+    senders: &'a rendered::Senders,
+    camera: DMat4,
+    frame: u64,
 }
 
 impl Surroundings for Around<'_> {
@@ -120,6 +131,25 @@ impl Surroundings for Around<'_> {
         }
     }
 
+    fn answers(&self, to: NodeId, input: Input) -> Option<InstanceId> {
+        self.senders
+            .get(&to)
+            .copied()
+            .filter(|_| input == Input::Number(1))
+    }
+
+    fn picks(&self, window: [DVec2; 2], detailed: bool) -> Arc<[Pick]> {
+        self.look(window, detailed)
+    }
+
+    fn transform(&self, name: &str, part: [usize; 2]) -> Result<Value, &'static str> {
+        self.marked(name, part)
+    }
+
+    fn device(&self, name: &str) -> Option<InstanceId> {
+        self.variable(name)
+    }
+
     fn variable(&self, name: &str) -> Option<InstanceId> {
         match self.names.named(name)? {
             Thing::Instance(id) => Some(id),
@@ -135,6 +165,10 @@ macro_rules! with_network {
             structure: &mut $machine.structure,
             panel: &mut $machine.panel,
             readouts: &$machine.readouts,
+            displayed: &$machine.displayed,
+            senders: &$machine.senders,
+            camera: $machine.camera,
+            frame: $machine.network.now.frame,
         };
         let $network = &mut $machine.network;
         $do
@@ -167,6 +201,9 @@ impl Machine {
             panel: Panel::default(),
             readouts,
             displayed: Vec::new(),
+            senders: rendered::Senders::new(),
+            camera: DMat4::IDENTITY,
+            cursor: DVec2::ZERO,
             ticked: Now::default(),
             topology: 0,
             open: Open::default(),
@@ -180,10 +217,8 @@ impl Machine {
         if let Some(at) = devices::SOURCES.iter().position(|source| source.name == name) {
             return self.network.outlet(InstanceId(at as u32), output);
         }
-        match self.names.named(name)? {
-            Thing::Instance(id) => self.network.outlet(id, output),
-            _ => None,
-        }
+        let sender = self.sender(self.names.named(name)?)?;
+        self.network.outlet(sender, output)
     }
 
     /// How many inputs an output feeds. A host need not compute what nobody listens to.
@@ -231,18 +266,23 @@ impl Machine {
             ticks: before.ticks + 1,
         };
         let now = self.ticked;
-        with_network!(self, |network, around| {
+        let ran = with_network!(self, |network, around| {
             network.close_batch(Some(now));
             network.run(firings_max, around)
-        })
+        });
+        self.structure.pass_frames(before.frame, now.frame);
+        self.follow_tablet();
+        ran
     }
 
     /// The same without moving time: what a host does between two messages that must not meet on the way.
     pub fn go_on(&mut self, firings_max: u32) -> Ran {
-        with_network!(self, |network, around| {
+        let ran = with_network!(self, |network, around| {
             network.close_batch(None);
             network.run(firings_max, around)
-        })
+        });
+        self.follow_tablet();
+        ran
     }
 
     /// Ends the batch and runs until everything sent so far is over, each batch with its own share of firings
@@ -299,32 +339,6 @@ impl Machine {
     /// still right.
     pub fn topology_revision(&self) -> u64 {
         self.topology
-    }
-
-    /// All that is displayed.
-    pub fn display(&self) -> DisplayList {
-        let mut list = DisplayList::default();
-        self.display_into(&mut list);
-        list
-    }
-
-    /// The same into a list whose memory is used again.
-    pub fn display_into(&self, list: &mut DisplayList) {
-        list.clear();
-        let mut walk = Walk::new(&self.structure, &self.names, list);
-        for &name in &self.displayed {
-            walk.draw(name, DMat4::IDENTITY);
-        }
-    }
-
-    /// What one name denotes, displayed or not, placed by `world_from_model`. Empty if it denotes nothing
-    /// that can be drawn.
-    pub fn display_of(&self, name: &str, world_from_model: DMat4) -> DisplayList {
-        let mut list = DisplayList::default();
-        if let Some(name) = self.names.find(&Name::new(name)) {
-            Walk::new(&self.structure, &self.names, &mut list).draw(name, world_from_model);
-        }
-        list
     }
 
     /// Whether commands, the host or the machine itself have given `name` a meaning.

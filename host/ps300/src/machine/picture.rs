@@ -216,6 +216,7 @@ impl Machine {
                 Role::Function => BoxRole::Function,
                 Role::Variable => BoxRole::Variable,
                 Role::Device => BoxRole::Device,
+                Role::Node => BoxRole::Node,
             },
             what: instance.what().into(),
             structure: is_label.then(|| around(&name)).flatten(),

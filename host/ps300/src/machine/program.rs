@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use super::Machine;
 use crate::language::{Command, Definition, InputOf, Name, OutputOf, print};
-use crate::names::{Owner, Thing};
+use crate::names::{NameId, Owner, Thing};
 use crate::network::{InstanceId, Numbered, Role};
 use crate::structure::{Body, NodeId};
 
@@ -52,6 +52,7 @@ impl Machine {
                 forgotten.push(Command::Forget(name));
             }
         }
+        self.print_patterns(&mut program);
         self.print_wires(&mut program);
         self.print_constants(&mut program);
         if with_state {
@@ -73,7 +74,7 @@ impl Machine {
         };
         program.push(match instance.role {
             Role::Variable => Command::Variable(vec![name.clone()]),
-            Role::Function | Role::Device => Command::Define {
+            Role::Function | Role::Device | Role::Node => Command::Define {
                 name: name.clone(),
                 definition: Definition::Function {
                     function: Name::new(instance.spec.name),
@@ -115,6 +116,28 @@ impl Machine {
                 self.print_insertions(*member, full.as_ref().unwrap_or(name), program);
             }
         }
+    }
+
+    /// PATTERN … WITH: after all definitions, as either may have been made anew.
+    fn print_patterns(&self, program: &mut Vec<Command>) {
+        for entry in self.names.defined() {
+            let node = self.names.node(entry).and_then(|id| self.structure.slot(id));
+            if let Some(Body::Vectors { pattern, .. } | Body::Curve { pattern, .. }) =
+                node.map(|slot| &slot.body)
+                && let Some(pattern) = *pattern
+                && self.is_pattern(pattern)
+            {
+                program.push(Command::PatternWith {
+                    list: self.names.spelling(entry),
+                    pattern: self.names.spelling(pattern),
+                });
+            }
+        }
+    }
+
+    fn is_pattern(&self, name: NameId) -> bool {
+        let node = self.names.node(name).and_then(|id| self.structure.slot(id));
+        matches!(node.map(|slot| &slot.body), Some(Body::Pattern(_)))
     }
 
     fn print_wires(&self, program: &mut Vec<Command>) {

@@ -47,6 +47,7 @@ impl Machine {
         if nodes.len() > 1 {
             self.drop_labels(&nodes);
         }
+        instances.extend(self.drop_senders(&nodes));
         self.network.remove(&instances, &nodes);
     }
 

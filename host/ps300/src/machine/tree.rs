@@ -104,6 +104,35 @@ impl Machine {
         }
     }
 
+    /// PATTERN list WITH p.
+    pub(super) fn dash(&mut self, list: &Name, pattern: &Name) -> Done {
+        let id = self.node_named(list)?;
+        let with = self.node_named(pattern)?;
+        if !matches!(
+            self.structure.slot(with).map(|slot| &slot.body),
+            Some(Body::Pattern(_))
+        ) {
+            return Err(ExecuteError::NotA {
+                name: pattern.clone(),
+                is: self.structure.what(with),
+                wanted: "a PATTERN",
+            });
+        }
+        let is = self.structure.what(id);
+        let entry = self.names.refer(pattern);
+        match self.structure.slot_mut(id).map(|slot| &mut slot.body) {
+            Some(Body::Vectors { pattern, .. } | Body::Curve { pattern, .. }) => {
+                *pattern = Some(entry);
+                Ok(())
+            }
+            _ => Err(ExecuteError::NotA {
+                name: list.clone(),
+                is,
+                wanted: "a vector list or a curve",
+            }),
+        }
+    }
+
     /// FOLLOW and PREFIX: both put an operation directly next to the node, so FOLLOW in front of what
     /// followed before, PREFIX behind what was there.
     pub(super) fn insert(
@@ -114,7 +143,8 @@ impl Machine {
         operation_only: bool,
     ) -> Done {
         let id = self.node_named(name)?;
-        let change = Change::new(with.clone()).map_err(|error| build_error(name, BuildError::from(error)))?;
+        let change = Change::new(with.clone(), &mut self.names)
+            .map_err(|error| build_error(name, BuildError::from(error)))?;
         let is = self.structure.what(id);
         let Some(slot) = self.structure.slot_mut(id) else {
             return Ok(());

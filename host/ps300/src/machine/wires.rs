@@ -9,25 +9,23 @@ use crate::value::{Kinds, Value};
 
 impl Machine {
     fn outlet_of(&self, from: &OutputOf) -> Result<Outlet, ExecuteError> {
-        match self.thing(&from.name)? {
-            Thing::Instance(id) => self.network.outlet(id, from.output).ok_or_else(|| {
-                let has = self.network.instance(id).map_or(0, Instance::output_count);
-                ConnectError::NoOutput {
-                    name: from.name.clone(),
-                    output: from.output,
-                    has,
-                }
-                .into()
-            }),
-            other => {
-                let is = self.what_is(other);
-                Err(ExecuteError::NotA {
-                    name: from.name.clone(),
-                    is,
-                    wanted: "something that sends",
-                })
+        let thing = self.thing(&from.name)?;
+        let Some(id) = self.sender(thing) else {
+            return Err(ExecuteError::NotA {
+                name: from.name.clone(),
+                is: self.what_is(thing),
+                wanted: "something that sends",
+            });
+        };
+        self.network.outlet(id, from.output).ok_or_else(|| {
+            let has = self.network.instance(id).map_or(0, Instance::output_count);
+            ConnectError::NoOutput {
+                name: from.name.clone(),
+                output: from.output,
+                has,
             }
-        }
+            .into()
+        })
     }
 
     /// Where messages to an input go, and what it takes.
@@ -70,6 +68,7 @@ impl Machine {
     }
 
     pub(super) fn connect(&mut self, from: &OutputOf, to: &InputOf) -> Done {
+        self.make_sender(&from.name)?;
         let outlet = self.outlet_of(from)?;
         let (inlet, accepted) = self.inlet_of(&to.name, to.input)?;
         if !self.network.connect(outlet, inlet, accepted)? {

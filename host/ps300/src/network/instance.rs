@@ -18,6 +18,8 @@ pub enum Role {
     Variable,
     /// There from the start, sends what the hands do.
     Device,
+    /// Sends for a display node, and has its name.
+    Node,
 }
 
 /// How an instance computes what it sends.
@@ -50,6 +52,12 @@ impl Behaviour {
         match self {
             Self::Pure(_) => Ok(()),
             Self::Stateful(function) => function.advance(now, inputs, outputs),
+        }
+    }
+
+    pub(super) fn found(&mut self) {
+        if let Self::Stateful(function) = self {
+            function.found();
         }
     }
 
@@ -91,6 +99,7 @@ impl Description {
             },
             Role::Variable => "variable".to_owned(),
             Role::Device => "device".to_owned(),
+            Role::Node => "node".to_owned(),
         }
     }
 }

@@ -8,6 +8,7 @@
 mod batch;
 mod connection;
 mod instance;
+mod look;
 mod made;
 mod making;
 mod output;

@@ -9,12 +9,17 @@
 //! 4. Setting a constant sets nothing off. It can complete the inputs of an instance at whose active
 //!    inputs messages were waiting for it.
 
+use std::sync::Arc;
+
+use glam::DVec2;
+
 use super::batch::Allowance;
 use super::connection::{Inlet, InstanceId, Outlet, SinkId};
 use super::instance::Behaviour;
 use super::{About, Cause, Network};
 use crate::intrinsic::{Fault, Inputs, Now, Outputs};
 use crate::language::{Input, Name};
+use crate::pick::Pick;
 use crate::structure::NodeId;
 use crate::value::{Kinds, Value};
 
@@ -60,6 +65,14 @@ pub(crate) trait Surroundings {
     fn sink_arrived(&mut self, sink: SinkId, value: &Value);
     /// Looks up an input by name, for F:SEND.
     fn inlet(&self, name: &str, input: Input) -> Option<Inlet>;
+    /// The instance that sends for a node, if a message at this input of it makes it send.
+    fn answers(&self, to: NodeId, input: Input) -> Option<InstanceId>;
+    /// What is drawn in a window of the screen, given by its middle and half its size.
+    fn picks(&self, window: [DVec2; 2], detailed: bool) -> Arc<[Pick]>;
+    /// What an XFORM node marks, or why there is nothing.
+    fn transform(&self, name: &str, part: [usize; 2]) -> Result<Value, &'static str>;
+    /// A device by name.
+    fn device(&self, name: &str) -> Option<InstanceId>;
     /// Looks up a variable by name, for F:FETCH.
     fn variable(&self, name: &str) -> Option<InstanceId>;
 }

@@ -133,6 +133,8 @@ impl Network {
                         Refusal::Domain(why) => Cause::Domain { why },
                     };
                     self.reports.note(&name, || about.message(input, value), cause);
+                } else if let Some(sender) = outside.answers(to, input) {
+                    self.deliver(Inlet::Function { to: sender, input: 1 }, value, outside);
                 }
             }
         }
@@ -194,6 +196,7 @@ impl Network {
 
     pub(super) fn run_errand(&mut self, from: InstanceId, errand: Errand, outside: &mut impl Surroundings) {
         match errand {
+            Errand::Look(look) => self.look(from, look, outside),
             Errand::Send { name, input, value } => match outside.inlet(&name, input) {
                 Some(inlet) => self.deliver(inlet, &value, outside),
                 None => self.report(

@@ -1,18 +1,19 @@
 //! Messages to display nodes: which inputs a node has, and what a message does.
 //!
-//! The named inputs of vector lists and characters make rubber bands and ink ordinary data.
+//! The named inputs of data make rubber bands and ink ordinary vector lists.
 //! Source: `docs/protocols/ps300.md`, "Display-tree nodes as sinks and sources". That `<position>` of a
 //! vector list adds a move is this project's rule, as is replacing by number.
 
 use glam::DVec3;
 
-use super::line::{edit_characters, edit_vectors};
+use super::edit;
 use super::{Body, NodeId, Structure, effect};
 use crate::language::Input;
 use crate::network::Refusal;
 use crate::value::{Kind, Kinds, Value};
 
 const POINT: Kinds = Kinds::of(&[Kind::Vector2, Kind::Vector3]);
+const POINTS: Kinds = POINT.or(Kinds::of(&[Kind::Vectors]));
 
 impl Structure {
     /// What an input takes; nothing if the node has no such input.
@@ -22,11 +23,15 @@ impl Structure {
                 let inputs = effect::accepts(&change.operation);
                 inputs.get(usize::from(number).checked_sub(1)?).copied()
             }
-            (Body::Vectors(_), Input::Append | Input::Last | Input::Number(1..))
-            | (Body::Vectors(_) | Body::Characters(_), Input::Position) => Some(POINT),
-            (Body::Vectors(_) | Body::Characters(_), Input::Delete) => Some(Kinds::INTEGER),
-            (Body::Vectors(_) | Body::Characters(_), Input::Clear) => Some(Kinds::ANY),
-            (Body::Characters(_), Input::Append | Input::Last | Input::Number(1..)) => Some(Kinds::STRING),
+            (Body::Vectors { .. }, Input::Append) => Some(POINTS),
+            (Body::Curve { .. }, Input::Append)
+            | (Body::Vectors { .. } | Body::Curve { .. }, Input::Last | Input::Number(1..))
+            | (Body::Vectors { .. } | Body::Characters(_) | Body::Labels(_), Input::Position) => Some(POINT),
+            (data, Input::Delete) if is_edited(data) => Some(Kinds::INTEGER),
+            (data, Input::Clear) if is_edited(data) => Some(Kinds::ANY),
+            (Body::Characters(_) | Body::Labels(_), Input::Append | Input::Last | Input::Number(1..)) => {
+                Some(Kinds::STRING)
+            }
             (Body::Characters(_), Input::Step) => Some(Kind::Vector2.into()),
             _ => None,
         }
@@ -40,7 +45,10 @@ impl Structure {
                 1 => "<1>".to_owned(),
                 count => format!("<1> to <{count}>"),
             },
-            Some(Body::Vectors(_)) => "<append>, <clear>, <delete>, <last>, <position>, <n>".to_owned(),
+            Some(Body::Curve { .. }) => "<append>, <clear>, <delete>, <last>, <n>".to_owned(),
+            Some(Body::Vectors { .. } | Body::Labels(_)) => {
+                "<append>, <clear>, <delete>, <last>, <position>, <n>".to_owned()
+            }
             Some(Body::Characters(_)) => {
                 "<append>, <clear>, <delete>, <last>, <position>, <step>, <n>".to_owned()
             }
@@ -60,14 +68,26 @@ impl Structure {
         match &mut slot.body {
             Body::Operation { change, .. } => {
                 change.effect.feed(&change.operation, input, value)?;
-                slot.told.note(input, value);
+                match change.effect.outcome(input, value) {
+                    Some(outcome) => slot.told.note(input, &outcome),
+                    None => slot.told.note(input, value),
+                }
                 Ok(())
             }
-            Body::Vectors(list) => edit_vectors(list.now_mut(), input, value),
-            Body::Characters(characters) => edit_characters(characters.now_mut(), input, value),
+            Body::Vectors { list, .. } => edit::vectors(list.now_mut(), input, value),
+            Body::Curve { curve, .. } => edit::curve(curve.now_mut(), input, value),
+            Body::Characters(characters) => edit::characters(characters.now_mut(), input, value),
+            Body::Labels(labels) => edit::labels(labels.now_mut(), input, value),
             _ => Ok(()),
         }
     }
+}
+
+fn is_edited(body: &Body) -> bool {
+    matches!(
+        body,
+        Body::Vectors { .. } | Body::Curve { .. } | Body::Characters(_) | Body::Labels(_)
+    )
 }
 
 /// A point in a node's own space; z is 0 where it is not said.

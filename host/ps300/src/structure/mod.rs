@@ -5,24 +5,36 @@
 //! Source: `docs/protocols/ps300.md`, "Two graphs sharing one name space" and "Display-tree nodes as
 //! sinks and sources".
 
+mod blink;
 mod build;
+mod curve;
 mod cycle;
+mod dash;
+mod edit;
 mod effect;
+mod font;
+mod frustum;
 mod inlet;
-mod line;
+mod near;
+mod polygon;
 pub(crate) mod projection;
+mod section;
 mod state;
 mod walk;
 
 pub(crate) use build::BuildError;
 pub(crate) use cycle::reaches;
+pub(crate) use near::{Aim, picks};
 pub(crate) use projection::NoView;
-pub(crate) use walk::Walk;
+pub(crate) use walk::{Traced, Walk};
 
-use effect::Effect;
+use curve::Curve;
+use effect::{Effect, Rate};
+use font::Typeface;
+use polygon::Polygons;
 use state::Told;
 
-use crate::language::{Characters, Name, Node, Operation, VectorList};
+use crate::language::{Attributes, Characters, Illumination, Labels, Name, Operation, Pattern, VectorList};
 use crate::names::NameId;
 
 /// A node of the display tree. Not reused while anything refers to it.
@@ -57,10 +69,28 @@ pub(crate) enum Body {
         change: Change,
         applied_to: Option<NameId>,
     },
-    Vectors(Drawn<VectorList>),
+    Vectors {
+        list: Drawn<VectorList>,
+        /// How it is dashed.
+        pattern: Option<NameId>,
+    },
+    Curve {
+        curve: Drawn<Curve>,
+        /// How it is dashed.
+        pattern: Option<NameId>,
+    },
     Characters(Drawn<Characters>),
-    /// Kept for the text of the program; pictures do not show it.
-    Unseen(Node),
+    Labels(Drawn<Labels>),
+    Polygons(Polygons),
+    Attributes(Attributes),
+    Illumination(Illumination),
+    Pattern(Pattern),
+    Font(Typeface),
+    /// A function of the structure around it, which the network has.
+    Function {
+        function: Name,
+        size: Option<u16>,
+    },
 }
 
 /// Data as written, and as messages have left it.
@@ -93,6 +123,8 @@ pub(crate) struct Structure {
     vacant: Vec<u32>,
     /// Counts changes that can be seen.
     pub(crate) revision: u64,
+    /// What blinks, or did.
+    rates: Vec<Rate>,
 }
 
 impl Structure {
@@ -161,7 +193,7 @@ impl Structure {
         while let Some(slot) = open.pop().and_then(|id| self.slot(id)) {
             match &slot.body {
                 Body::Structure(members) => open.extend(members.iter().map(|(_, member)| *member)),
-                Body::Unseen(Node::Function { .. }) => found.push(slot.name.clone()),
+                Body::Function { .. } => found.push(slot.name.clone()),
                 _ => {}
             }
         }
@@ -187,9 +219,15 @@ impl Structure {
     /// The vectors of a list, as messages have left them.
     pub(crate) fn vectors(&self, id: NodeId) -> Option<&VectorList> {
         match &self.slot(id)?.body {
-            Body::Vectors(list) => Some(list.now()),
+            Body::Vectors { list, .. } => Some(list.now()),
             _ => None,
         }
+    }
+
+    /// Whether a node sends a message when it has rendered.
+    pub(crate) fn renders(&self, id: NodeId) -> bool {
+        let body = self.slot(id).map(|slot| &slot.body);
+        matches!(body, Some(Body::Operation { change, .. }) if matches!(change.effect, Effect::Rendering(_)))
     }
 
     /// As reports and drawings name a node's kind.
@@ -199,26 +237,20 @@ impl Structure {
             Some(Body::Nil) => "NIL",
             Some(Body::Instance(_)) => "INSTANCE",
             Some(Body::Structure(_)) => "STRUCTURE",
-            Some(Body::Vectors(_)) => "VECTOR_LIST",
+            Some(Body::Vectors { .. }) => "VECTOR_LIST",
+            Some(Body::Curve { curve, .. }) => match curve.written {
+                Curve::BSpline(_) => "BSPLINE",
+                Curve::Polynomial(_) => "POLYNOMIAL",
+            },
             Some(Body::Characters(_)) => "CHARACTERS",
-            Some(Body::Unseen(node)) => what_unseen(node),
+            Some(Body::Labels(_)) => "LABELS",
+            Some(Body::Polygons(_)) => "POLYGON",
+            Some(Body::Attributes(_)) => "ATTRIBUTES",
+            Some(Body::Illumination(_)) => "ILLUMINATION",
+            Some(Body::Pattern(_)) => "PATTERN",
+            Some(Body::Font(_)) => "FONT",
+            Some(Body::Function { .. }) => "FUNCTION",
             None => "removed",
         }
-    }
-}
-
-fn what_unseen(node: &Node) -> &'static str {
-    match node {
-        Node::Labels(_) => "LABELS",
-        Node::BSpline(_) => "BSPLINE",
-        Node::Polynomial(_) => "POLYNOMIAL",
-        Node::Polygons(_) => "POLYGON",
-        Node::Attributes(_) => "ATTRIBUTES",
-        Node::Illumination(_) => "ILLUMINATION",
-        Node::Pattern(_) => "PATTERN",
-        Node::Font(_) => "FONT",
-        Node::Copy { .. } => "COPY",
-        Node::Function { .. } => "FUNCTION",
-        _ => "NIL",
     }
 }

@@ -58,6 +58,28 @@ pub(crate) fn perspective(degrees: f64, front: f64, back: f64) -> Result<DMat4, 
     ))
 }
 
+/// Perspective of an eye `back` behind the middle of a screen `width` wide and high, moved right and up of it.
+/// The eye is the origin; the screen becomes -1..1, depth `front`..`back_plane` 0..1.
+pub(crate) fn eye(
+    back: f64,
+    [right, up]: [f64; 2],
+    width: f64,
+    [front, back_plane]: [f64; 2],
+) -> Result<DMat4, NoView> {
+    if back <= 0.0 || back.is_nan() {
+        return Err(NoView("an eye stands behind its screen, at a distance above 0"));
+    }
+    if width <= 0.0 || width.is_nan() {
+        return Err(NoView("a screen has a width"));
+    }
+    let straight = perspective(90.0, front, back_plane)?;
+    let stretch = 2.0 * back / width;
+    let scale = DMat4::from_scale(DVec3::new(stretch, stretch, 1.0));
+    // Seen from the right, the screen lies to the left: what was in the middle of sight moves right on it.
+    let shift = DMat4::from_translation(DVec3::new(2.0 * right / width, 2.0 * up / width, 0.0));
+    Ok(shift * scale * straight)
+}
+
 /// `x` and `y` to -1..1, depth (front, back) to 0..1; depth stays as it is where no planes are given.
 pub(crate) fn parallel(x: [f64; 2], y: [f64; 2], depth: Option<[f64; 2]>) -> Result<DMat4, NoView> {
     let (sx, tx) = onto(x, -1.0).ok_or(NoView("a window has a width"))?;
@@ -110,6 +132,23 @@ mod tests {
         assert!(perspective(30.0, 2.0, 2.0).is_err());
         assert!(perspective(f64::NAN, 1.0, 2.0).is_err());
         assert!(parallel([1.0, 1.0], [0.0, 1.0], None).is_err());
+        assert!(eye(0.0, [0.0; 2], 1.0, [1.0, 2.0]).is_err());
+        assert!(eye(1.0, [0.0; 2], 0.0, [1.0, 2.0]).is_err());
+    }
+
+    #[test]
+    fn an_eye_beside_its_screen_sees_the_same_screen() {
+        // The eye is 5 behind, 1 right of and 2 above the middle of a screen 4 wide.
+        let m = eye(5.0, [1.0, 2.0], 4.0, [1.0, 10.0]).unwrap();
+        let seen = |x: f64, y: f64| m.project_point3(DVec3::new(x - 1.0, y - 2.0, 5.0)).truncate();
+        for (x, y) in [(0.0, 0.0), (2.0, 2.0), (-2.0, 2.0)] {
+            assert!(
+                (seen(x, y) - glam::DVec2::new(x, y) / 2.0).length() < 1e-12,
+                "{x} {y}"
+            );
+        }
+        let straight = eye(1.0, [0.0; 2], 2.0, [1.0, 10.0]).unwrap();
+        assert!(straight.abs_diff_eq(perspective(90.0, 1.0, 10.0).unwrap(), 1e-12));
     }
 
     #[test]

@@ -2,8 +2,9 @@
 //!
 //! Operations are told again what they were told last; data that was edited is kept as it now is.
 
-use super::{Body, Drawn, NodeId, Structure};
-use crate::language::{Characters, Input};
+use super::curve::Curve;
+use super::{Body, NodeId, Structure};
+use crate::language::{Characters, Input, Label, Labels};
 use crate::value::Value;
 
 /// The last message of each kind at each input of an operation, in the order in which they came: told again,
@@ -34,12 +35,25 @@ impl Structure {
     /// Data as messages have left it; empty where they have not changed it.
     pub(crate) fn remembered(&self, id: NodeId) -> Vec<Value> {
         match self.slot(id).map(|slot| &slot.body) {
-            Some(Body::Vectors(Drawn {
-                changed: Some(list), ..
-            })) => vec![Value::Vectors(list.clone().into())],
-            Some(Body::Characters(Drawn {
-                changed: Some(now), ..
-            })) => vec![now.at.into(), now.step.into(), Value::String(now.text.clone())],
+            Some(Body::Vectors { list, .. }) => {
+                let now = list.changed.as_ref();
+                now.map_or_else(Vec::new, |now| vec![Value::Vectors(now.clone().into())])
+            }
+            Some(Body::Curve { curve, .. }) => {
+                curve.changed.as_ref().map_or_else(Vec::new, Curve::remembered)
+            }
+            Some(Body::Characters(characters)) => characters.changed.as_ref().map_or_else(Vec::new, |now| {
+                vec![now.at.into(), now.step.into(), Value::String(now.text.clone())]
+            }),
+            Some(Body::Labels(labels)) => {
+                let value = |label: &Label| [label.at.into(), Value::String(label.text.clone())];
+                match &labels.changed {
+                    None => Vec::new(),
+                    // Something must be said even of no labels.
+                    Some(now) if now.labels.is_empty() => vec![Value::Boolean(false)],
+                    Some(now) => now.labels.iter().flat_map(value).collect(),
+                }
+            }
             _ => Vec::new(),
         }
     }
@@ -50,9 +64,11 @@ impl Structure {
             return false;
         };
         match (&mut slot.body, state) {
-            (Body::Vectors(list), []) => list.changed = None,
+            (Body::Vectors { list, .. }, []) => list.changed = None,
             (Body::Characters(characters), []) => characters.changed = None,
-            (Body::Vectors(list), [Value::Vectors(now)]) => list.changed = Some((**now).clone()),
+            (Body::Labels(labels), []) => labels.changed = None,
+            (Body::Curve { curve, .. }, []) => curve.changed = None,
+            (Body::Vectors { list, .. }, [Value::Vectors(now)]) => list.changed = Some((**now).clone()),
             (
                 Body::Characters(characters),
                 [Value::Vector3(at), Value::Vector2(step), Value::String(text)],
@@ -63,8 +79,31 @@ impl Structure {
                     text: text.clone(),
                 });
             }
+            (Body::Labels(labels), [Value::Boolean(_)]) => {
+                labels.changed = Some(Labels { labels: Vec::new() });
+            }
+            (Body::Labels(labels), state) => match recalled_labels(state) {
+                Some(now) => labels.changed = Some(now),
+                None => return false,
+            },
+            (Body::Curve { curve, .. }, state) => match curve.written.recalled(state) {
+                Some(now) => curve.changed = Some(now),
+                None => return false,
+            },
             _ => return false,
         }
         true
     }
+}
+
+fn recalled_labels(state: &[Value]) -> Option<Labels> {
+    let label = |pair: &[Value]| match pair {
+        [Value::Vector3(at), Value::String(text)] => Some(Label {
+            at: *at,
+            text: text.clone(),
+        }),
+        _ => None,
+    };
+    let labels = state.chunks(2).map(label).collect::<Option<_>>()?;
+    Some(Labels { labels })
 }

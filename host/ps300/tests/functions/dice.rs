@@ -2,6 +2,8 @@
 
 use glam::{DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
 use ps300::intrinsic::InputSpec;
+use ps300::language::Name;
+use ps300::pick::{Pick, Picked, Spot};
 use ps300::{Kind, Value};
 
 /// Numbers to choose with, the same for the same seed (xorshift, Marsaglia 2003).
@@ -23,13 +25,32 @@ impl Dice {
         self.below(41) as f64 / 8.0 - 1.0
     }
 
-    /// A message `input` takes, of a kind with a literal.
+    /// Up to two picks.
+    fn picks(&mut self) -> Value {
+        let pick = |dice: &mut Self| Pick {
+            index: dice.below(9) as i32,
+            identifiers: (0..dice.below(3)).map(|_| Name::new("id")).collect(),
+            node: Name::new("node"),
+            kind: Picked::Curve,
+            dimension: 2 + dice.below(2) as u8,
+            spot: (dice.below(2) == 0).then_some(Spot {
+                at: DVec3::splat(dice.number()),
+                along: 0.5,
+            }),
+        };
+        Value::Picks((0..self.below(3)).map(|_| pick(self)).collect())
+    }
+
+    /// A message `input` takes, of a kind with a literal where it takes one.
     pub(crate) fn value(&mut self, input: InputSpec) -> Value {
         let kinds: Vec<_> = input
             .kinds
             .iter()
             .filter(|kind| !matches!(kind, Kind::Vectors | Kind::Picks | Kind::Matrix4x3))
             .collect();
+        if kinds.is_empty() {
+            return self.picks();
+        }
         let kind = kinds[self.below(kinds.len() as u64) as usize];
         let x = self.number();
         match kind {

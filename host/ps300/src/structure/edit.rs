@@ -1,17 +1,24 @@
-//! Editing vector lists and characters by message.
+//! Editing data by message: vector lists, curves, characters, labels.
 
+use super::curve::Curve;
 use super::inlet::point;
 use crate::intrinsic::TEXT_MAX_BYTES;
-use crate::language::{Characters, Input, Vector, VectorClass, VectorList};
+use crate::language::{Characters, Dimension, Input, Label, Labels, Text, Vector, VectorClass, VectorList};
 use crate::network::Refusal;
 use crate::value::Value;
 
 /// Ink beyond this is refused: at 60 vectors a second it is eighteen minutes of drawing.
 const VECTORS_MAX: usize = 65_536;
 
-pub(super) fn edit_vectors(list: &mut VectorList, input: Input, value: &Value) -> Result<(), Refusal> {
+pub(super) fn vectors(list: &mut VectorList, input: Input, value: &Value) -> Result<(), Refusal> {
     match input {
-        Input::Append => add(list, value, true),
+        Input::Append => match value {
+            Value::Vectors(more) => more
+                .vectors
+                .iter()
+                .try_for_each(|vector| add_at(list, vector.at, vector.draw)),
+            value => add(list, value, true),
+        },
         Input::Position => {
             if list.class != VectorClass::Dots {
                 list.class = VectorClass::Itemized; // A move in the middle; the others keep what they were.
@@ -39,7 +46,13 @@ pub(super) fn edit_vectors(list: &mut VectorList, input: Input, value: &Value) -
 }
 
 fn add(list: &mut VectorList, value: &Value, line: bool) -> Result<(), Refusal> {
-    let at = point(value)?;
+    if matches!(value, Value::Vector3(_)) {
+        list.dimension = Dimension::Three;
+    }
+    add_at(list, point(value)?, line)
+}
+
+fn add_at(list: &mut VectorList, at: glam::DVec3, line: bool) -> Result<(), Refusal> {
     if list.vectors.len() >= VECTORS_MAX {
         return Err(Refusal::Domain("the vector list is full at 65536 vectors"));
     }
@@ -69,11 +82,7 @@ fn count(value: &Value) -> Result<usize, Refusal> {
     }
 }
 
-pub(super) fn edit_characters(
-    characters: &mut Characters,
-    input: Input,
-    value: &Value,
-) -> Result<(), Refusal> {
+pub(super) fn characters(characters: &mut Characters, input: Input, value: &Value) -> Result<(), Refusal> {
     match (input, value) {
         (Input::Position, value) => characters.at = point(value)?,
         (Input::Step, Value::Vector2(step)) => characters.step = *step,
@@ -111,4 +120,77 @@ fn substitute(characters: &mut Characters, number: usize, text: &str) -> Result<
     let after = characters.text.chars().skip(index + 1);
     characters.text = before.chain(text.chars()).chain(after).collect::<String>().into();
     Ok(())
+}
+
+/// Controls of a curve; more weigh down every picture.
+const CONTROLS_MAX: usize = 4096;
+
+/// Adds, moves and removes the vertices or coefficients of a curve. A new one has the weight 1.
+pub(super) fn curve(curve: &mut Curve, input: Input, value: &Value) -> Result<(), Refusal> {
+    let (controls, weights) = curve.controls();
+    let before = controls.len();
+    match input {
+        Input::Append if before >= CONTROLS_MAX => {
+            return Err(Refusal::Domain("the curve is full at 4096 vertices"));
+        }
+        Input::Append => controls.push(point(value)?),
+        Input::Last => *controls.last_mut().ok_or(Refusal::Domain("the curve is empty"))? = point(value)?,
+        Input::Number(number) => {
+            let control = usize::from(number)
+                .checked_sub(1)
+                .and_then(|index| controls.get_mut(index));
+            *control.ok_or(Refusal::Domain("the curve has no vertex of that number"))? = point(value)?;
+        }
+        Input::Delete => controls.truncate(before.saturating_sub(count(value)?)),
+        Input::Clear => controls.clear(),
+        Input::Position | Input::Step | Input::Substitute => {}
+    }
+    let now = controls.len();
+    if let Some(weights) = weights {
+        weights.resize(now, 1.0);
+    }
+    if now != before {
+        curve.recount();
+    }
+    Ok(())
+}
+
+/// Labels of one node; more than a screen has room for.
+const LABELS_MAX: usize = 4096;
+
+/// Adds, rewrites, moves and removes labels. A new one stands where the last one does, until `<position>`.
+pub(super) fn labels(list: &mut Labels, input: Input, value: &Value) -> Result<(), Refusal> {
+    let labels = &mut list.labels;
+    let none = Refusal::Domain("there is no label of that number");
+    match (input, value) {
+        (Input::Append, Value::String(text)) => {
+            if labels.len() >= LABELS_MAX {
+                return Err(Refusal::Domain("there are 4096 labels already"));
+            }
+            let at = labels.last().map_or(glam::DVec3::ZERO, |label| label.at);
+            labels.push(Label {
+                at,
+                text: fitting(text)?,
+            });
+        }
+        (Input::Position, value) => labels.last_mut().ok_or(none)?.at = point(value)?,
+        (Input::Last, Value::String(text)) => labels.last_mut().ok_or(none)?.text = fitting(text)?,
+        (Input::Number(number), Value::String(text)) => {
+            let label = usize::from(number)
+                .checked_sub(1)
+                .and_then(|index| labels.get_mut(index));
+            label.ok_or(none)?.text = fitting(text)?;
+        }
+        (Input::Delete, value) => labels.truncate(labels.len().saturating_sub(count(value)?)),
+        (Input::Clear, _) => labels.clear(),
+        _ => {}
+    }
+    Ok(())
+}
+
+fn fitting(text: &Text) -> Result<Text, Refusal> {
+    if text.len() > TEXT_MAX_BYTES {
+        return Err(Refusal::Domain("the text would be longer than 4096 bytes"));
+    }
+    Ok(text.clone())
 }

@@ -1,10 +1,15 @@
-//! What is on the screen: the display tree walked through, as strokes and texts in world space.
+//! What is on the screen: the display tree walked through, as strokes and faces in world space.
 //!
-//! Apart from `structure` because it is what hosts draw from and keep; nothing in it refers back.
+//! Apart from `structure` because it is what hosts draw from and keep; nothing in it refers back. Text is
+//! strokes like everything else, so that every host, and every pick, sees the same letters.
 
-use std::sync::Arc;
+mod face;
+mod shade;
 
-use glam::{DMat4, DVec2, DVec3};
+pub use face::{Corner, Face, Fill, Light, Material};
+pub use shade::{rgb, shade};
+
+use glam::{DMat4, DVec3};
 
 use crate::language::Name;
 
@@ -19,31 +24,8 @@ pub struct Stroke {
     pub hue_deg: f64,
     /// 0 white to 1 full.
     pub saturation: f64,
-    /// Brightness, 0 to 1; in a depth-cued part that of its nearest point.
-    pub intensity: f64,
-    /// Index into [`DisplayList::views`].
-    pub view: u16,
-}
-
-/// A line of text in world space.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Lettering {
-    /// Lower left corner of the first character, in world space.
-    pub at: DVec3,
-    /// A character's width, in world space.
-    pub right: DVec3,
-    /// A character's height, in world space.
-    pub up: DVec3,
-    /// From one character to the next, in widths and heights.
-    pub step: DVec2,
-    /// What is written.
-    pub text: Arc<str>,
-    /// 0 blue, 120 red, 240 green.
-    pub hue_deg: f64,
-    /// 0 white to 1 full.
-    pub saturation: f64,
-    /// Brightness, 0 to 1.
-    pub intensity: f64,
+    /// Brightness at `from` and at `to`, 0 to 1. With a projection of its own, the depth cue is in it.
+    pub intensity: [f64; 2],
     /// Index into [`DisplayList::views`].
     pub view: u16,
 }
@@ -55,8 +37,6 @@ pub struct Viewport {
     pub horizontal: [f64; 2],
     /// Bottom and top.
     pub vertical: [f64; 2],
-    /// Brightness of the farthest and the nearest, 0 to 1.
-    pub intensity: [f64; 2],
 }
 
 impl Default for Viewport {
@@ -64,7 +44,6 @@ impl Default for Viewport {
         Self {
             horizontal: [-1.0, 1.0],
             vertical: [-1.0, 1.0],
-            intensity: [0.0, 1.0],
         }
     }
 }
@@ -73,10 +52,25 @@ impl Default for Viewport {
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct View {
     /// Perspective or window times eye; nothing where no viewing node stood above, so that the host's own
-    /// camera applies.
+    /// camera applies. Depth 0 is the front, 1 the back.
     pub screen_from_world: Option<DMat4>,
     /// Where on the screen.
     pub viewport: Viewport,
+    /// Brightness of the farthest and the nearest, 0 to 1, where the program said so. For hosts that bring
+    /// their own camera; strokes with a projection of their own have it in their intensity.
+    pub cue: Option<[f64; 2]>,
+}
+
+impl View {
+    /// The screen, -1 to 1 each way, from what the projection makes of the same.
+    pub fn onto_screen(&self, projected: DVec3) -> DVec3 {
+        let along = |[low, high]: [f64; 2], at: f64| low + (high - low) * (at + 1.0) / 2.0;
+        DVec3::new(
+            along(self.viewport.horizontal, projected.x),
+            along(self.viewport.vertical, projected.y),
+            projected.z,
+        )
+    }
 }
 
 /// A part of the tree that is missing from the list.
@@ -109,11 +103,19 @@ pub enum Cut {
 /// What is on the screen, in the order of DISPLAY and of the tree.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DisplayList {
-    /// Lines and dots.
+    /// Lines, dots and letters.
     pub strokes: Vec<Stroke>,
-    /// Texts.
-    pub letterings: Vec<Lettering>,
-    /// The views strokes and texts refer to.
+    /// Rendered polygons; those that are not are strokes.
+    pub faces: Vec<Face>,
+    /// The borders of faces.
+    pub corners: Vec<Corner>,
+    /// The edges of faces, drawn where the face is seen.
+    pub edges: Vec<Stroke>,
+    /// How faces look.
+    pub materials: Vec<Material>,
+    /// What shines on faces.
+    pub lights: Vec<Light>,
+    /// The views strokes and faces refer to.
     pub views: Vec<View>,
     /// What was left out, and why.
     pub cuts: Vec<Cut>,
@@ -123,8 +125,17 @@ impl DisplayList {
     /// Empties it and keeps its memory.
     pub fn clear(&mut self) {
         self.strokes.clear();
-        self.letterings.clear();
+        self.faces.clear();
+        self.corners.clear();
+        self.edges.clear();
+        self.materials.clear();
+        self.lights.clear();
         self.views.clear();
         self.cuts.clear();
+    }
+
+    /// Whether nothing is shown.
+    pub fn is_empty(&self) -> bool {
+        self.strokes.is_empty() && self.faces.is_empty()
     }
 }
