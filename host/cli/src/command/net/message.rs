@@ -60,7 +60,7 @@ fn json_of_pick(pick: &ps300::pick::Pick) -> serde_json::Value {
         .iter()
         .map(ps300::language::Name::as_str)
         .collect();
-    json!({"index": pick.index, "identifiers": identifiers, "node": pick.node.as_str(), "at": pick.at.to_array()})
+    json!({"index": pick.index, "identifiers": identifiers, "node": pick.node.as_str(), "at": pick.spot.map(|spot| spot.at.to_array())})
 }
 
 #[cfg(test)]
