@@ -261,9 +261,9 @@ fn messages_change_nodes_and_leave_the_program() {
     let stroke = m.display().strokes[0];
     assert_eq!(
         (stroke.to.x, stroke.hue_deg, stroke.saturation, stroke.intensity),
-        (3.0, 200.0, 0.25, [1.0; 2])
+        (3.0, 200.0, 0.25, [0.5; 2])
     );
-    // Without a projection of its own, the depth cue is the host's affair.
+    // Without a projection of its own, what is farther is the host's affair.
     assert_eq!(m.display().views[0].cue, Some([0.0, 0.5]));
     m.load("SEND V3D(4,1,1) TO <1>s;");
     assert_eq!(m.display().strokes[0].to.x, 4.0);

@@ -40,7 +40,7 @@ fn line(stroke: &Stroke, view: Option<&View>, camera: &Camera) -> scene::Stroke 
         width: theme::WIDTH_GHOST,
         ink: Ink {
             cued: !own,
-            cue: said.map_or(ink.cue, |cue| cue.map(|brightness| brightness as f32)),
+            cue: said.map_or(ink.cue, |[far, near]| [(far / near.max(1e-6)) as f32, 1.0]),
             ..ink
         },
         to_strength: end,
@@ -63,7 +63,7 @@ fn surface(face: &Face, display: &DisplayList, view: Option<&View>, camera: &Cam
     let said = view.and_then(|view| view.cue);
     let cue = match (view.and_then(|view| view.screen_from_world), said) {
         (Some(_), _) => [near + further, near].map(|brightness| brightness as f32),
-        (None, Some(cue)) => cue.map(|brightness| brightness as f32),
+        (None, Some([far, near])) => [far, near].map(|brightness| brightness as f32),
         (None, None) => [theme::CUE_FAR, 1.0],
     };
     Surface {

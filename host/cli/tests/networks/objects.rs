@@ -294,7 +294,7 @@ impl Page {
             && drawn.iter().all(|stroke| {
                 near(stroke.hue_deg, thing.hue_deg)
                     && near(stroke.saturation, thing.saturation)
-                    && near(stroke.intensity, bright)
+                    && near(stroke.intensity[0], bright)
             })
     }
 }

@@ -102,7 +102,7 @@ fn color(stroke: &Stroke) -> String {
     let channel = |at_deg: f64| {
         let away = ((stroke.hue_deg - at_deg + 180.0).rem_euclid(360.0) - 180.0).abs();
         let share = (2.0 - away / 60.0).clamp(0.0, 1.0);
-        let bright = stroke.intensity * (1.0 - stroke.saturation * (1.0 - share));
+        let bright = stroke.intensity[0] * (1.0 - stroke.saturation * (1.0 - share));
         (bright * 255.0).round() as u8
     };
     let [red, green, blue] = [120.0, 240.0, 0.0].map(channel);

@@ -24,7 +24,8 @@ pub struct Stroke {
     pub hue_deg: f64,
     /// 0 white to 1 full.
     pub saturation: f64,
-    /// Brightness at `from` and at `to`, 0 to 1. With a projection of its own, the depth cue is in it.
+    /// Brightness at `from` and at `to`, 0 to 1. With a projection of its own, the depth cue is in it; without,
+    /// it is as if all were nearest.
     pub intensity: [f64; 2],
     /// Index into [`DisplayList::views`].
     pub view: u16,
@@ -57,7 +58,7 @@ pub struct View {
     /// Where on the screen.
     pub viewport: Viewport,
     /// Brightness of the farthest and the nearest, 0 to 1, where the program said so. For hosts that bring
-    /// their own camera; strokes with a projection of their own have it in their intensity.
+    /// their own camera: of strokes without a projection the nearest is in their intensity already.
     pub cue: Option<[f64; 2]>,
 }
 

@@ -102,7 +102,7 @@ impl State {
     pub(super) fn brightness(&self) -> [f64; 2] {
         match (self.screen_from_world, self.cue()) {
             (Some(_), Some([far, near])) if self.deep => [near, far - near],
-            (Some(_), Some([_, near])) => [near, 0.0],
+            (_, Some([_, near])) => [near, 0.0],
             _ => [1.0, 0.0],
         }
     }
