@@ -1,6 +1,7 @@
 //! The network edited while the rig steps: undone without loss, looked at, saved, and replayed.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
@@ -288,8 +289,17 @@ fn edits_through_the_running_rig_disturb_no_step() {
     let clock: Arc<dyn Clock> = Arc::new(stage.clock.clone());
     let steps: Arc<Mutex<Vec<Arc<Snapshot>>>> = Arc::default();
     let seen = Arc::clone(&steps);
+    let allowed = Arc::new(AtomicUsize::new(1));
+    let may = Arc::clone(&allowed);
     let live = Live::start(stage.rig, clock, move |snapshot| {
-        seen.lock().expect("nobody panics").push(Arc::clone(snapshot));
+        let mut seen = seen.lock().expect("nobody panics");
+        seen.push(Arc::clone(snapshot));
+        let count = seen.len();
+        drop(seen);
+        // Virtual time would run away from the test.
+        while count > may.load(Ordering::Relaxed) {
+            std::thread::yield_now();
+        }
     })
     .expect("the thread starts");
     let taken = || steps.lock().expect("nobody panics").len();
@@ -307,11 +317,13 @@ fn edits_through_the_running_rig_disturb_no_step() {
             4 | 7 => NetworkEdit::Redo,
             _ => NetworkEdit::Commands(edit),
         }));
-        let before = taken();
-        while taken() == before {
+        let wanted = taken() + 3;
+        allowed.store(wanted, Ordering::Relaxed);
+        while taken() < wanted {
             std::thread::yield_now();
         }
     }
+    allowed.store(usize::MAX, Ordering::Relaxed);
     live.close();
     let steps = steps.lock().expect("nobody panics");
     let last = steps.last().expect("it went on");
