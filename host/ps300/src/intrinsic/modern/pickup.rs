@@ -171,3 +171,66 @@ fn scaled(value: f64, before: f64, control: f64, [lower, upper]: [f64; 2]) -> f6
         end - (end - value) * (end - control) / left
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::takes_hold;
+
+    /// A row of Mixxx's table; nothing where it does not matter.
+    struct Row {
+        passes: Option<bool>,
+        was_near: Option<bool>,
+        is_near: bool,
+        quick: Option<bool>,
+        takes: bool,
+    }
+
+    const fn row(
+        passes: Option<bool>,
+        was_near: Option<bool>,
+        is_near: bool,
+        quick: Option<bool>,
+        takes: bool,
+    ) -> Row {
+        Row {
+            passes,
+            was_near,
+            is_near,
+            quick,
+            takes,
+        }
+    }
+
+    const TABLE: [Row; 6] = [
+        row(None, None, true, None, true),
+        row(Some(true), None, false, Some(true), true),
+        row(Some(true), None, false, Some(false), false),
+        row(Some(false), Some(true), false, Some(true), true),
+        row(Some(false), Some(true), false, Some(false), false),
+        row(Some(false), Some(false), false, None, false),
+    ];
+
+    #[test]
+    fn every_case_of_the_table_is_decided_as_it_says() {
+        let (value, near) = (0.5, 0.1);
+        let places = [0.1, 0.45, 0.55, 0.9];
+        let is_near = |at: f64| (at - value).abs() <= near;
+        for before in places {
+            for control in places {
+                for quick in [false, true] {
+                    let passes = (before < value) != (control < value);
+                    let fits = |row: &&Row| {
+                        row.is_near == is_near(control)
+                            && row.passes.is_none_or(|wanted| wanted == passes)
+                            && row.was_near.is_none_or(|wanted| wanted == is_near(before))
+                            && row.quick.is_none_or(|wanted| wanted == quick)
+                    };
+                    let rows: Vec<_> = TABLE.iter().filter(fits).collect();
+                    assert_eq!(rows.len(), 1, "{before} {control} {quick}");
+                    let takes = takes_hold(value, before, control, near, quick);
+                    assert_eq!(takes, rows[0].takes, "{before} {control} {quick}");
+                }
+            }
+        }
+    }
+}
