@@ -52,6 +52,7 @@ const FORMS: &[(&str, &str)] = &[
     ("store 1.5 in <1>v;", "STORE 1.5 IN <1>v;"),
     // Structure and display.
     ("a := inst b,c;", "a := INSTANCE OF b,c;"),
+    ("a := inst;", "a := INSTANCE;"),
     ("incl a in n;", "INCLUDE a IN n;"),
     ("rem a from n;", "REMOVE a FROM n;"),
     ("rem a;", "REMOVE a;"),

@@ -1,5 +1,6 @@
 //! What must hold for every session.
 
+use super::edits::makes_the_same;
 use super::session::{Act, Play, limits, machine};
 use ps300::language::Severity;
 use ps300::{Machine, Ran};
@@ -12,6 +13,9 @@ pub(crate) fn hold(acts: &[Act]) {
     play.heard.check();
     can_be_looked_at(&play.machine);
     its_text_can_be_read(&play.machine);
+    if !play.edits.forgetful() {
+        it_becomes_any_program(&played(&acts[..acts.len() / 2], true).machine, &play.machine);
+    }
     if matches!(play.machine.settle(), Ran::Quiet { .. }) {
         its_text_goes_on(play, acts);
     }
@@ -63,6 +67,20 @@ fn its_text_can_be_read(of: &Machine) {
     assert!(errors.is_empty(), "{text}\n--\n{errors:?}");
 }
 
+/// While it runs it can be changed into what a program makes.
+fn it_becomes_any_program(of: &Machine, into: &Machine) {
+    let text = of.network_text_with_state();
+    let mut changed = machine();
+    changed.load(&text);
+    let program: Vec<_> = into.program();
+    changed.patch(&program);
+    let (now, wanted) = (changed.network_text(), into.network_text());
+    assert!(
+        makes_the_same(&now, &wanted),
+        "from\n{text}\nto\n{wanted}\nis\n{now}"
+    );
+}
+
 /// At rest and written with its state, it goes on elsewhere as it does here.
 fn its_text_goes_on(of: Play, acts: &[Act]) {
     let text = of.machine.network_text_with_state();
@@ -82,7 +100,7 @@ fn its_text_goes_on(of: Play, acts: &[Act]) {
     let after = |mut play: Play| {
         play.forget();
         play.watch();
-        for act in acts.iter().filter(|act| !matches!(act, Act::Load(_))) {
+        for act in acts.iter().filter(|act| act.is_a_message()) {
             play.act(act, true);
         }
         play.end();

@@ -4,6 +4,7 @@
 //! Nothing here knows either, so that both check the same laws.
 
 pub(crate) mod commands;
+pub(crate) mod edits;
 pub(crate) mod laws;
 pub(crate) mod session;
 

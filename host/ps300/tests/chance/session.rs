@@ -1,6 +1,7 @@
 //! What a host does to a machine, one thing after another, and all that comes out.
 
 use super::commands::{LITERALS, LIVELY, NAMES, REMEMBERING, anything, example, link};
+use super::edits::Edits;
 use super::{Dice, pick};
 use ps300::language::Input;
 use ps300::network::Watched;
@@ -45,6 +46,22 @@ pub(crate) enum Act {
     Tick { firings_max: u32 },
     /// It may fire so often again.
     GoOn { firings_max: u32 },
+    /// Commands that may be taken back.
+    Edit(String),
+    /// Takes the last edit back.
+    Undo,
+    /// Makes it again.
+    Redo,
+}
+
+impl Act {
+    /// Whether it is told to a network as it stands, and changes nothing in what there is.
+    pub(crate) fn is_a_message(&self) -> bool {
+        matches!(
+            self,
+            Self::Emit { .. } | Self::Send { .. } | Self::Tick { .. } | Self::GoOn { .. }
+        )
+    }
 }
 
 /// Bounds so narrow that sessions meet them.
@@ -75,7 +92,7 @@ fn act(bytes: &[u8]) -> Act {
     let mut padded = [0; BYTES_AN_ACT];
     padded[..bytes.len()].copy_from_slice(bytes);
     let [kind, dice @ ..] = padded;
-    match kind % 24 {
+    match kind % 32 {
         0..4 => Act::Load(anything(dice)),
         4..6 => Act::Load(format!(
             "{} := F:{};",
@@ -109,6 +126,11 @@ fn act(bytes: &[u8]) -> Act {
             value: value(dice),
         },
         16..20 => Act::Load(example(dice)),
+        24 | 25 => Act::Edit(link(dice)),
+        26 => Act::Edit(anything(dice)),
+        27 => Act::Edit(example(dice)),
+        28 | 29 => Act::Undo,
+        30 => Act::Redo,
         20 => Act::GoOn {
             firings_max: u32::from(dice[0]),
         },
@@ -143,6 +165,7 @@ pub(crate) struct Play {
     pub(crate) machine: Machine,
     pub(crate) heard: Heard,
     ticks: u64,
+    pub(crate) edits: Edits,
 }
 
 impl Play {
@@ -152,6 +175,7 @@ impl Play {
             machine: machine(),
             heard: Heard::default(),
             ticks: 0,
+            edits: Edits::default(),
         };
         (0..ticks).for_each(|_| play.tick(0));
         play
@@ -174,6 +198,7 @@ impl Play {
         let firings = |said: u32| if as_said { said } else { u32::MAX };
         match act {
             Act::Load(text) => {
+                self.edits.hear(text);
                 self.machine.load(text);
                 self.watch();
             }
@@ -192,6 +217,18 @@ impl Play {
             Act::GoOn { firings_max } => {
                 let ran = self.machine.go_on(firings(*firings_max));
                 assert!(ran.firings() <= firings(*firings_max), "{ran:?}");
+            }
+            Act::Edit(text) => {
+                self.edits.edit(&mut self.machine, text);
+                self.watch();
+            }
+            Act::Undo => {
+                self.edits.undo(&mut self.machine);
+                self.watch();
+            }
+            Act::Redo => {
+                self.edits.redo(&mut self.machine);
+                self.watch();
             }
         }
     }

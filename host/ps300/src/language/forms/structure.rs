@@ -27,11 +27,11 @@ pub(super) const FORMS: &[Form] = &[
     },
     Form {
         keyword: "INSTANCE",
-        form: "n := INSTance OF a[,b…];",
+        form: "n := INSTance [OF a[,b…]];",
         example: "line := VECTOR_LIST 0,0 1,0;\nturned := ROTATE IN Z 90 THEN line;\ncross := INSTANCE OF line,turned;\n\
             DISPLAY cross;",
-        meaning: "All of these, in this order. They may be defined later.",
-        source: "recollected; operands as in D0's call PINST",
+        meaning: "All of these, in this order. They may be defined later. Of nothing, as REMOVE can leave it: empty.",
+        source: "recollected; operands as in D0's call PINST; of nothing ours",
         confidence: High,
     },
     Form {

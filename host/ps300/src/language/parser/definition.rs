@@ -48,6 +48,9 @@ impl<'s> Parser<'s> {
             return Ok(Node::Nil);
         }
         if self.accept_word(words::INSTANCE) {
+            if self.is(Mark::Semicolon) {
+                return Ok(Node::Instance(Vec::new()));
+            }
             self.skip_word_before_name(words::OF);
             return Ok(Node::Instance(self.names("the name of what is shown")?));
         }

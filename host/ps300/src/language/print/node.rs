@@ -28,6 +28,7 @@ pub(super) fn print_node(f: &mut fmt::Formatter<'_>, node: &Node, indent: Indent
     let inner = indent.deeper();
     match node {
         Node::Nil => f.write_str("NIL"),
+        Node::Instance(names) if names.is_empty() => f.write_str("INSTANCE"),
         Node::Instance(names) => write!(f, "INSTANCE OF {}", Joined(names)),
         Node::Structure(members) => print_structure(f, members, indent),
         Node::Function { function, size } => print_function(f, function, *size),
