@@ -99,7 +99,7 @@ fn network() -> Vec<BoxedStrategy<Command>> {
         (payload(), input_of())
             .prop_map(|(payload, to)| Command::Store { payload, to })
             .boxed(),
-        prop::collection::vec(name(), 0..4)
+        prop::collection::vec(name(), 1..4)
             .prop_map(Command::Variable)
             .boxed(),
         (any::<bool>(), input_of())
