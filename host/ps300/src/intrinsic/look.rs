@@ -32,13 +32,15 @@ pub(crate) const PICK: Spec = Spec::clock(
     |_| Box::new(PickOnce::default()),
 )
 .says(
-    "Every message at <1>, of any kind, looks for lines, characters, curves and polygon edges in the pick window of \
-     PICK_LOCATION, below SET PICKING ON. Output <1> lists what is there, nearest to the middle first; with <2> \
-     TRUE each with its place. If nothing is there it looks again for <3> displayed frames, then sends FALSE on <2>.",
+    "Every message at <1>, of any kind, looks for lines, characters, curves and polygon edges \
+             in the pick window of PICK_LOCATION, below SET PICKING ON. Output <1> lists what is \
+             there, nearest to the middle first; with <2> TRUE each with its place. If nothing is \
+             there it looks again for <3> displayed frames, then sends FALSE on <2>.",
 )
 .known(
     Confidence::Used,
-    "D0 pick networks for <1>, <2> and output <1>; the meaning of <2> recollected; <3> in frames and output <2> ours",
+    "D0 pick networks for <1>, <2> and output <1>; the meaning of <2> recollected; <3> in \
+             frames and output <2> ours",
 )
 .example("<1> TRUE -> <2> FALSE");
 
@@ -64,22 +66,23 @@ pub(super) const TABLE: &[Spec] = &[
         pick_info,
     )
     .says(
-        "Takes the first of the picks at <1> apart: <1> its number in its list, from 1; <2> its pick identifiers, \
-         innermost first, at most <2> of them, with commas between; <3> where it was picked, in its own space; <4> \
-         its dimension, 2 or 3; <5> what it is part of: 0 vectors, 1 characters, 2 labels, 3 a curve, 4 a polygon; \
-         <6> how far along the line or curve, 0 to 1; <7> the name of its node; <8> how many identifiers it has; \
-         <9> how many picks there are. <3> and <6> are sent if PICK was told to say where.",
+        "Takes the first of the picks at <1> apart: <1> its number in its list, from 1; <2> its \
+             pick identifiers, innermost first, at most <2> of them, with commas between; <3> where \
+             it was picked, in its own space; <4> its dimension, 2 or 3; <5> what it is part of: 0 \
+             vectors, 1 characters, 2 labels, 3 a curve, 4 a polygon; <6> how far along the line or \
+             curve, 0 to 1; <7> the name of its node; <8> how many identifiers it has; <9> how many \
+             picks there are. <3> and <6> are sent if PICK was told to say where.",
     )
     .known(
         Confidence::Used,
-        "D0 pick networks for nine outputs, of which <2> is text beginning with an identifier; <1> recollected; the \
-         others' order ours",
+        "D0 pick networks for nine outputs, of which <2> is text beginning with an identifier; \
+             <1> recollected; the others' order ours",
     )
     .example(
-        "p := F:PICK | CONNECT p<1>:<1>f | SEND TRUE TO <2>p | l := VECTOR_LIST N=2 -1,0 1,0 | \
-         d := BEGIN_STRUCTURE SET PICKING ON; SET PICKING IDENTIFIER=edge; INSTANCE OF l; END_STRUCTURE | DISPLAY d | \
-         SEND TRUE TO <1>p -> <1> FIX(2) | <2> 'edge' | <3> V2D(0,0) | <4> FIX(2) | <5> FIX(0) | <6> 0.5 | <7> 'l' | \
-         <8> FIX(1) | <9> FIX(1)",
+        "p := F:PICK | CONNECT p<1>:<1>f | SEND TRUE TO <2>p | l := VECTOR_LIST N=2 -1,0 1,0 | d \
+             := BEGIN_STRUCTURE SET PICKING ON; SET PICKING IDENTIFIER=edge; INSTANCE OF l; \
+             END_STRUCTURE | DISPLAY d | SEND TRUE TO <1>p -> <1> FIX(2) | <2> 'edge' | <3> V2D(0,0) \
+             | <4> FIX(2) | <5> FIX(0) | <6> 0.5 | <7> 'l' | <8> FIX(1) | <9> FIX(1)",
     ),
     Spec::pure(
         "XFORMDATA",
@@ -94,25 +97,31 @@ pub(super) const TABLE: &[Spec] = &[
         transform_data,
     )
     .says(
-        "Every message at <1>, of any kind, reads the displayed XFORM node with the full name <2>: of XFORM MATRIX \
-         the 4x4 matrix gathered from the last viewing node down to it, of XFORM VECTOR_LIST the lines below it, \
-         transformed, as a vector list; of these <5> vectors from number <4>. The node named by <3>, if it is set, \
-         receives it too: at <1>, or in place of the vectors it had.",
+        "Every message at <1>, of any kind, reads the displayed XFORM node with the full name \
+             <2>: of XFORM MATRIX the 4x4 matrix gathered from the last viewing node down to it, of \
+             XFORM VECTOR_LIST the lines below it, transformed, as a vector list; of these <5> \
+             vectors from number <4>. The node named by <3>, if it is set, receives it too: at <1>, \
+             or in place of the vectors it had.",
     )
     .known(
         Confidence::Used,
-        "D0 matrix read-back for <1>, <2> and the matrix; the rest recollected; from where it is gathered ours",
+        "D0 matrix read-back for <1>, <2> and the matrix; the rest recollected; from where it is \
+             gathered ours",
     )
     .example(
-        "l := VECTOR_LIST N=2 0,0 1,0 | s := BEGIN_STRUCTURE SCALE BY 2; x := XFORM MATRIX; INSTANCE OF l; \
-         END_STRUCTURE | DISPLAY s | <2> 's.x' | <1> TRUE -> <1> M4D(2,0,0,0, 0,2,0,0, 0,0,2,0, 0,0,0,1)",
+        "l := VECTOR_LIST N=2 0,0 1,0 | s := BEGIN_STRUCTURE SCALE BY 2; x := XFORM MATRIX; \
+             INSTANCE OF l; END_STRUCTURE | DISPLAY s | <2> 's.x' | <1> TRUE -> <1> M4D(2,0,0,0, \
+             0,2,0,0, 0,0,2,0, 0,0,0,1)",
     ),
     Spec::pure("LIST", &[InputSpec::active(LISTED)], &[TEXT], list)
         .says(
-            "Prints a matrix, a vector list or picks line by line, a message for each: a heading, then a line for \
-             each row, vector or pick, the last with a semicolon behind it.",
+            "Prints a matrix, a vector list or picks line by line, a message for each: a heading, \
+             then a line for each row, vector or pick, the last with a semicolon behind it.",
         )
-        .known(Confidence::Used, "D0 matrix read-back for 4x4 matrices; what the lines hold ours")
+        .known(
+            Confidence::Used,
+            "D0 matrix read-back for 4x4 matrices; what the lines hold ours",
+        )
         .example("<1> M2D(1,0,0,2) -> <1> 'MATRIX_2X2' | <1> '1,0' | <1> '0,2;'"),
 ];
 
