@@ -257,11 +257,15 @@ impl Machine {
 
     /// Ends the batch of messages sent since the last tick, moves network time, lets the clocks send, and fires
     /// at most `firings_max` instances. What is left goes on, in the same order, at the next tick: the sequence
-    /// of all firings is the same however they are portioned. Time that runs backwards stands still.
+    /// of all firings is the same however they are portioned. Time that runs backwards, or is not finite, stands still.
     pub fn tick(&mut self, secs: f64, frame: u64, firings_max: u32) -> Ran {
         let before = self.ticked;
         self.ticked = Now {
-            secs: if secs >= before.secs { secs } else { before.secs },
+            secs: if secs.is_finite() {
+                secs.max(before.secs)
+            } else {
+                before.secs
+            },
             frame: frame.max(before.frame),
             ticks: before.ticks + 1,
         };

@@ -1,5 +1,6 @@
 //! Which command made something, so that trouble can be traced to the text.
 
+use std::cell::Cell;
 use std::fmt;
 use std::sync::Arc;
 
@@ -33,6 +34,8 @@ const CHARACTERS_MAX: usize = 60;
 pub struct Places<'a> {
     source: Arc<str>,
     lines: Vec<&'a str>,
+    /// Where the last command was found, with its byte in the line: a text may be one long line.
+    last: Cell<(Position, usize)>,
 }
 
 impl<'a> Places<'a> {
@@ -41,18 +44,16 @@ impl<'a> Places<'a> {
         Self {
             source: source.into(),
             lines: text.lines().collect(),
+            last: Cell::new((Position { line: 0, column: 1 }, 0)),
         }
     }
 
     /// The command that begins there.
-    pub fn at(&self, Position { line, column }: Position) -> Made {
-        let whole = self.lines.get((line as usize).wrapping_sub(1)).copied();
-        let rest = whole
-            .unwrap_or_default()
-            .chars()
-            .skip((column as usize).saturating_sub(1));
+    pub fn at(&self, at: Position) -> Made {
+        let whole = self.lines.get((at.line as usize).wrapping_sub(1)).copied();
+        let rest = self.rest_of(whole.unwrap_or_default(), at);
         let mut text = String::new();
-        for (count, character) in rest.enumerate() {
+        for (count, character) in rest.chars().enumerate() {
             if count == CHARACTERS_MAX {
                 text.push('…');
                 break;
@@ -65,9 +66,21 @@ impl<'a> Places<'a> {
         text.truncate(text.trim_end().len());
         Made {
             source: self.source.clone(),
-            line,
+            line: at.line,
             text: text.into(),
         }
+    }
+
+    /// The rest of a line, counted on from the command before if that is on the same.
+    fn rest_of(&self, line: &'a str, at: Position) -> &'a str {
+        let (last, byte) = self.last.get();
+        let on = last.line == at.line && last.column <= at.column;
+        let (column, byte) = if on { (last.column, byte) } else { (1, 0) };
+        let rest = line.get(byte..).unwrap_or_default();
+        let skipped = rest.char_indices().nth(at.column.saturating_sub(column) as usize);
+        let further = skipped.map_or(rest.len(), |(further, _)| further);
+        self.last.set((at, byte + further));
+        rest.get(further..).unwrap_or_default()
     }
 }
 
@@ -83,6 +96,8 @@ mod tests {
         let made = |line, column| places.at(Position { line, column }).to_string();
         assert_eq!(made(1, 1), "dials.ps300:1 \"a := F:NOP;\"");
         assert_eq!(made(1, 13), "dials.ps300:1 \"b := F:ADD;\"");
+        assert_eq!(made(1, 13), made(1, 13));
+        assert_eq!(made(1, 1), "dials.ps300:1 \"a := F:NOP;\"");
         assert_eq!(made(2, 3), "dials.ps300:2 \"s := BEGIN_STRUCTURE\"");
         assert_eq!(made(3, 1), format!("dials.ps300:3 \"{}…\"", &long[..60]));
         assert_eq!(made(9, 9), "dials.ps300:9 \"\"");

@@ -145,11 +145,11 @@ impl Queues {
         let Some(port) = self.port_mut(to, input) else {
             return Ok(());
         };
-        if behind >= behind_max {
-            return Err(Full::Network);
-        }
         if port.waiting() >= queue_max {
             return Err(Full::Queue);
+        }
+        if behind >= behind_max {
+            return Err(Full::Network);
         }
         port.push_behind(value);
         self.behind += 1;

@@ -1,6 +1,6 @@
 //! What is sent: from an output to everything it feeds, each with its own copy.
 
-use super::connection::{Inlet, InstanceId, Outlet, SinkId};
+use super::connection::{Inlet, InstanceId, Outlet, SinkId, input_text};
 use super::queues::{Full, Hindrance};
 use super::run::{Refusal, Surroundings};
 use super::token::Token;
@@ -194,17 +194,30 @@ impl Network {
         }
     }
 
+    /// Whether functions and sinks have as many inputs; nodes say themselves what they take.
+    fn is_there(&self, inlet: Inlet) -> bool {
+        match inlet {
+            Inlet::Function { to, input } => self.accepts(to, input).is_some(),
+            Inlet::Sink { to, input } => self
+                .sink(to)
+                .is_some_and(|sink| usize::from(input) <= sink.inputs.len()),
+            Inlet::Node { .. } => true,
+        }
+    }
+
     pub(super) fn run_errand(&mut self, from: InstanceId, errand: Errand, outside: &mut impl Surroundings) {
         match errand {
             Errand::Look(look) => self.look(from, look, outside),
             Errand::Send { name, input, value } => match outside.inlet(&name, input) {
-                Some(inlet) => self.deliver(inlet, &value, outside),
-                None => self.report(
-                    from,
-                    Cause::Unknown {
-                        name: name.to_string(),
-                    },
-                ),
+                Some(inlet) if self.is_there(inlet) => self.deliver(inlet, &value, outside),
+                found => {
+                    let name = if found.is_some() {
+                        format!("input {} of {name}", input_text(input))
+                    } else {
+                        name.to_string()
+                    };
+                    self.report_message(from, Cause::Unknown { name }, || Some((None, value)));
+                }
             },
             Errand::Fetch { name, output } => {
                 match outside.variable(&name).and_then(|id| self.held(id)).cloned() {
