@@ -6,11 +6,8 @@ use ps300::language::{Input, Severity};
 use ps300::{Kinds, Limits, Machine, Ran, Value};
 
 fn said(machine: &mut Machine) -> String {
-    machine
-        .reports()
-        .iter()
-        .map(|report| format!("{report}\n"))
-        .collect()
+    let lines: Vec<_> = machine.reports().iter().map(ToString::to_string).collect();
+    lines.join("\n")
 }
 
 fn errors(machine: &mut Machine, text: &str) -> usize {
