@@ -132,7 +132,9 @@ impl Studio {
             let builder = UiBuilder::new().max_rect(areas.patch()).id_salt("patch");
             let asked = ui.scope_builder(builder, |ui| {
                 ui.set_clip_rect(areas.patch().intersect(window));
-                self.patch.ui(ui, look.as_ref())
+                let asked = self.patch.ui(ui, look.as_ref());
+                view::remark(ui, self.patch.table_area(areas.patch()), seen);
+                asked
             });
             for edit in asked.inner.edits {
                 commands.push(Command::Network(edit));

@@ -234,7 +234,7 @@ pub fn current_remark(seen: &Snapshot) -> Option<&Note> {
 }
 
 /// The latest remark, in the lower left corner; long ones take two lines.
-fn remark(ui: &Ui, area: Rect, seen: &Snapshot) {
+pub(crate) fn remark(ui: &Ui, area: Rect, seen: &Snapshot) {
     let Some(note) = current_remark(seen) else {
         return;
     };

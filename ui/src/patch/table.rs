@@ -14,7 +14,7 @@ use super::area::Area;
 use super::hit::Seating;
 use super::layout::{self, Placed, place};
 use super::look::Picture;
-use super::scene::{Part, Scene};
+use super::scene::Scene;
 
 /// Layouts of more boxes than this are made on a thread.
 const AT_ONCE_MAX: usize = 300;
@@ -33,6 +33,8 @@ pub struct Table {
     folded: BTreeSet<Name>,
     guests: BTreeSet<Name>,
     spots: BTreeMap<Name, Vec2>,
+    /// Corners of frames when they were folded.
+    homes: BTreeMap<Name, Vec2>,
     stale: bool,
     anew: bool,
     waiting: Option<Receiver<(Scene, Placed)>>,
@@ -200,7 +202,7 @@ impl Table {
         self.folded.contains(structure)
     }
 
-    /// Folds a structure into one box where its frame was, the rest moving up; or unfolds it, making room.
+    /// Folds a structure into one box where its frame was; or unfolds it, making room where there is none.
     pub fn fold(&mut self, structure: &Name, on: bool) {
         let Some(picture) = self
             .picture
@@ -209,55 +211,89 @@ impl Table {
         else {
             return;
         };
+        let area = self.extent_of(structure).unwrap_or_default();
+        self.stale = true;
         if on {
             self.folded.insert(structure.clone());
-        } else {
-            self.folded.remove(structure);
+            self.homes.insert(structure.clone(), area.min);
+            self.spots.insert(structure.clone(), area.min);
+            return;
         }
+        self.folded.remove(structure);
         let scene = Scene::new(&picture, &self.folded, &self.guests);
-        let old = self.extent_of(structure);
-        let corner = old.map_or(Vec2::ZERO, |area| area.min);
-        let fresh = layout::arrange_scene(&scene, &|_| None);
-        let members: Vec<usize> = (0..scene.boxes.len())
-            .filter(|&index| {
-                let shown = &scene.boxes[index];
-                shown.structure.as_ref() == Some(structure)
-                    || shown.name == *structure && matches!(shown.part, Part::Folded(_))
-            })
-            .collect();
+        let members = self.seat_members(&scene, structure, area.min);
+        let areas = members.iter().filter_map(|&m| {
+            Some(Area::new(
+                *self.spots.get(&scene.boxes[m].name)?,
+                scene.boxes[m].size,
+            ))
+        });
+        if let Some(frame) = layout::frame_around(areas) {
+            self.make_room(&scene, &members, area, frame);
+        }
+    }
+
+    /// Puts the boxes of an unfolded structure where they were before, or else where a layout wants them, its frame
+    /// beginning at `corner`. Returns their places in the scene.
+    fn seat_members(&mut self, scene: &Scene, structure: &Name, corner: Vec2) -> Vec<usize> {
+        let inside = |&index: &usize| scene.boxes[index].structure.as_ref() == Some(structure);
+        let members: Vec<usize> = (0..scene.boxes.len()).filter(inside).collect();
+        let known = members
+            .iter()
+            .all(|&m| self.spots.contains_key(&scene.boxes[m].name));
+        if let Some(home) = self.homes.get(structure).copied().filter(|_| known) {
+            for &member in &members {
+                if let Some(spot) = self.spots.get_mut(&scene.boxes[member].name) {
+                    *spot += corner - home;
+                }
+            }
+            return members;
+        }
+        let fresh = layout::arrange_scene(scene, &|_| None);
         let areas = members
             .iter()
             .map(|&m| Area::new(fresh.at[m], scene.boxes[m].size));
-        let whole = if on {
-            areas.reduce(Area::union)
-        } else {
-            layout::frame_around(areas)
-        };
-        let (Some(whole), Some(old)) = (whole, old) else {
-            self.stale = true;
-            return;
-        };
+        let origin = layout::frame_around(areas).unwrap_or_default().min;
         for &member in &members {
-            self.spots.insert(
-                scene.boxes[member].name.clone(),
-                fresh.at[member] - whole.min + corner,
-            );
+            let name = scene.boxes[member].name.clone();
+            self.spots.insert(name, fresh.at[member] - origin + corner);
         }
-        let growth = whole.size() - old.size();
-        for shown in scene
-            .boxes
+        members
+    }
+
+    /// Where a frame that was one box would cover others, all that is to its right goes to the right, and all that
+    /// is below it goes down.
+    fn make_room(&mut self, scene: &Scene, members: &[usize], old: Area, frame: Area) {
+        let others: Vec<usize> = (0..scene.boxes.len())
+            .filter(|index| !members.contains(index))
+            .collect();
+        let area = |spots: &BTreeMap<Name, Vec2>, index: usize| {
+            let shown = &scene.boxes[index];
+            spots.get(&shown.name).map(|&at| Area::new(at, shown.size))
+        };
+        let covered = others
             .iter()
-            .filter(|shown| !members.iter().any(|&m| scene.boxes[m].name == shown.name))
-        {
-            if let Some(spot) = self.spots.get_mut(&shown.name) {
-                if spot.x >= old.max.x {
-                    spot.x += growth.x;
-                } else if spot.y >= old.max.y && spot.x < old.min.x + whole.size().x.max(old.size().x) {
-                    spot.y += growth.y;
-                }
+            .any(|&index| area(&self.spots, index).is_some_and(|a| a.meets(frame)));
+        if !covered {
+            return;
+        }
+        let growth = frame.size() - old.size();
+        for &index in &others {
+            let Some(there) = area(&self.spots, index) else {
+                continue;
+            };
+            let same_columns = there.min.x < frame.max.x && there.max.x > frame.min.x;
+            let by = if there.min.x >= old.max.x {
+                Vec2::new(growth.x, 0.0)
+            } else if there.min.y >= old.max.y && same_columns {
+                Vec2::new(0.0, growth.y)
+            } else {
+                continue;
+            };
+            if let Some(spot) = self.spots.get_mut(&scene.boxes[index].name) {
+                *spot += by;
             }
         }
-        self.stale = true;
     }
 
     /// What a structure covers now, folded or not.

@@ -108,6 +108,11 @@ impl Patch {
         Some(self.view(self.parts(area).1).screen(at))
     }
 
+    /// The part of `area` in which the boxes lie.
+    pub fn table_area(&self, area: Rect) -> Rect {
+        self.parts(area).1
+    }
+
     fn view(&self, area: Rect) -> View {
         View {
             area,

@@ -89,8 +89,8 @@ pub(super) fn kind_colour(output: &Port, activity: &Activity) -> Rgb {
 fn steps(view: &View, route: &Route) -> usize {
     let Area { min, max } = route.area;
     let long = view.length((max - min).length()) / route.curves.len().max(1) as f32;
-    let most = if view.detail() == Detail::Blocks { 6 } else { 22 };
-    ((long / 14.0) as usize).clamp(3, most)
+    let most = if view.detail() == Detail::Blocks { 6 } else { 40 };
+    ((long / 12.0) as usize).clamp(3, most)
 }
 
 /// Lines as strips of triangles with soft edges.

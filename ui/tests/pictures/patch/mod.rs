@@ -4,6 +4,7 @@ mod hands;
 mod machine;
 mod networks;
 mod pictures;
+mod table;
 
 use egui::Rect;
 use egui_kittest::Harness;

@@ -1,6 +1,7 @@
 //! Pictures of the patch panel, to be looked at.
 
 use egui::{Key, Modifiers, vec2};
+use ps300::Kinds;
 use ui::render::picture::Picture;
 use ui::render::theme;
 
@@ -62,18 +63,38 @@ fn the_dial_network() {
     drawn(&mut room, "text");
 }
 
+/// The network every show begins with, and the parameters of the rig it drives.
 #[test]
-fn two_hundred_instances() {
+fn the_shipped_network() {
     if no_card() {
         return;
     }
-    let mut room = Room::new(Link::new(&pages(200), SINKS), LARGE, true);
-    for step in 0..6 {
-        room.turn(&[(step % 8 + 1, 0.01)]);
+    let kinds = |parameter: &rig::parameters::Parameter| -> Vec<Kinds> {
+        parameter.inlets.iter().map(|inlet| inlet.kinds).collect()
+    };
+    let parameters: Vec<(&str, Vec<Kinds>)> = rig::parameters::PARAMETERS
+        .iter()
+        .map(|parameter| (parameter.name, kinds(parameter)))
+        .collect();
+    let sinks: Vec<(&str, &[Kinds])> = parameters
+        .iter()
+        .map(|(name, kinds)| (*name, kinds.as_slice()))
+        .collect();
+    let program = include_str!("../../../../networks/figure.ps300");
+    let mut room = Room::new(Link::new(program, &sinks), LARGE, true);
+    for dial in [1, 2, 4] {
+        room.turn(&[(dial, 0.02)]);
     }
-    drawn(&mut room, "200");
-    let at = room.place("gain1_3").center();
-    for _ in 0..6 {
+    drawn(&mut room, "figure");
+    let at = room.place("turn").center();
+    zoom(&mut room, at, 5);
+    room.turn(&[(1, 0.02), (4, 0.01)]);
+    drawn(&mut room, "figure-near");
+}
+
+/// Turns the wheel over a place until its glide is over.
+fn zoom(room: &mut Room, at: egui::Pos2, notches: usize) {
+    for _ in 0..notches {
         room.harness.hover_at(at);
         room.harness.event(egui::Event::MouseWheel {
             unit: egui::MouseWheelUnit::Point,
@@ -87,6 +108,20 @@ fn two_hundred_instances() {
     for _ in 0..20 {
         room.step();
     }
+}
+
+#[test]
+fn two_hundred_instances() {
+    if no_card() {
+        return;
+    }
+    let mut room = Room::new(Link::new(&pages(200), SINKS), LARGE, true);
+    for step in 0..6 {
+        room.turn(&[(step % 8 + 1, 0.01)]);
+    }
+    drawn(&mut room, "200");
+    let at = room.place("gain1_3").center();
+    zoom(&mut room, at, 6);
     room.turn(&[(3, 0.02)]);
     drawn(&mut room, "200-near");
 }
