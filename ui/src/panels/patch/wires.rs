@@ -37,6 +37,7 @@ pub(super) struct Looks<'a> {
 /// Paints all wires that can be seen.
 pub(super) fn paint(painter: &Painter, view: &View, table: &Table, looks: &Looks<'_>) {
     let seen = view.camera.seen(view.size());
+    let detail = view.detail();
     let mut glows = Strip::default();
     let mut lines = Strip::default();
     for (index, route) in table.seating.routes.iter().enumerate() {
@@ -59,7 +60,7 @@ pub(super) fn paint(painter: &Painter, view: &View, table: &Table, looks: &Looks
         };
         let strength = if looks.receding { 0.35 } else { 1.0 };
         let each = steps(view, route);
-        if glow > 0.0 {
+        if glow > 0.0 && detail > Detail::Blocks {
             let halo = ink(kind).gamma_multiply(HALO.1 * glow * strength);
             glows.line(view, route, each, HALO.0 * view.camera.zoom.clamp(0.5, 1.2), halo);
         }
@@ -89,7 +90,7 @@ pub(super) fn kind_colour(output: &Port, activity: &Activity) -> Rgb {
 fn steps(view: &View, route: &Route) -> usize {
     let Area { min, max } = route.area;
     let long = view.length((max - min).length()) / route.curves.len().max(1) as f32;
-    let most = if view.detail() == Detail::Blocks { 6 } else { 40 };
+    let most = if view.detail() == Detail::Blocks { 5 } else { 40 };
     ((long / 12.0) as usize).clamp(3, most)
 }
 
@@ -115,30 +116,50 @@ impl Strip {
             ((width - 1.0) / 2.0, colour)
         };
         let soft = if width > 4.0 { half } else { 0.0 };
-        for index in 0..count {
-            let before = self.points[index.saturating_sub(1)];
-            let after = self.points[(index + 1).min(count - 1)];
-            let along = (after - before).normalized();
-            let side = vec2(-along.y, along.x);
-            let at = self.points[index];
-            let base = self.mesh.vertices.len() as u32;
-            let rows = [
-                (-half - 1.0, Color32::TRANSPARENT),
-                (-half + soft, colour),
-                (half - soft, colour),
-                (half + 1.0, Color32::TRANSPARENT),
-            ];
-            self.mesh.vertices.extend(rows.map(|(out, color)| Vertex {
-                pos: at + side * out,
-                uv: WHITE_UV,
-                color,
-            }));
-            if index > 0 {
-                for row in 0..3 {
-                    let (a, b) = (base - 4 + row, base + row);
-                    self.mesh.indices.extend([a, a + 1, b, b, a + 1, b + 1]);
-                }
+        let whole = [
+            (-half - 1.0, Color32::TRANSPARENT),
+            (-half + soft, colour),
+            (half - soft, colour),
+            (half + 1.0, Color32::TRANSPARENT),
+        ];
+        let thin = [whole[0], (0.0, colour), whole[3]];
+        let rows = if half > soft { &whole[..] } else { &thin[..] };
+        let seen = view.area.expand(width + 1.0);
+        let mut joined = false;
+        for index in 1..count {
+            let (from, to) = (self.points[index - 1], self.points[index]);
+            // Long wires are mostly out of sight when one is near.
+            if !seen.intersects(egui::Rect::from_two_pos(from, to)) {
+                joined = false;
+                continue;
+            }
+            if !joined {
+                self.rib(index - 1, rows);
+            }
+            self.rib(index, rows);
+            joined = true;
+            let wide = rows.len() as u32;
+            let base = self.mesh.vertices.len() as u32 - 2 * wide;
+            for row in base..base + wide - 1 {
+                let next = row + wide;
+                self.mesh
+                    .indices
+                    .extend([row, row + 1, next, next, row + 1, next + 1]);
             }
         }
+    }
+
+    /// The points across a line at one of its points.
+    fn rib(&mut self, index: usize, rows: &[(f32, Color32)]) {
+        let before = self.points[index.saturating_sub(1)];
+        let after = self.points[(index + 1).min(self.points.len() - 1)];
+        let along = (after - before).normalized();
+        let side = vec2(-along.y, along.x);
+        let at = self.points[index];
+        self.mesh.vertices.extend(rows.iter().map(|&(out, color)| Vertex {
+            pos: at + side * out,
+            uv: WHITE_UV,
+            color,
+        }));
     }
 }
