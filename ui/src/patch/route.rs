@@ -47,14 +47,18 @@ impl Route {
         Route { curves, area }
     }
 
-    /// Points along the way, `each` for a curve, more than one; the first and the last included.
-    pub fn points(&self, each: usize) -> impl Iterator<Item = Vec2> + '_ {
-        let each = each.max(1);
+    /// Points along the way, both ends included; a curve whose ends are `long` apart is cut in `pieces(long)`.
+    pub fn points(&self, pieces: impl Fn(f32) -> usize) -> impl Iterator<Item = Vec2> {
         let first = self.curves.first().map(|c| c[0]);
         let rest = self.curves.iter().flat_map(move |curve| {
             // A level stretch is straight.
-            let each = if curve[0].y == curve[3].y { 1 } else { each };
-            (1..=each).map(move |step| at(curve, step as f32 / each as f32))
+            let level = curve[0].y == curve[3].y;
+            let count = if level {
+                1
+            } else {
+                pieces(curve[0].distance(curve[3])).max(1)
+            };
+            (1..=count).map(move |step| at(curve, step as f32 / count as f32))
         });
         first.into_iter().chain(rest)
     }
@@ -63,7 +67,7 @@ impl Route {
     pub fn distance(&self, from: Vec2) -> f32 {
         let mut last = None;
         let mut nearest = f32::INFINITY;
-        for point in self.points(16) {
+        for point in self.points(|_| 16) {
             if let Some(last) = last {
                 nearest = nearest.min(to_segment(from, last, point));
             }

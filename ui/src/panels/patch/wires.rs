@@ -6,7 +6,6 @@ use egui::{Color32, Painter, Pos2, Shape, vec2};
 use super::colour;
 use super::view::{Detail, View};
 use crate::panels::style::ink;
-use crate::patch::area::Area;
 use crate::patch::look::Activity;
 use crate::patch::route::Route;
 use crate::patch::scene::Port;
@@ -59,13 +58,12 @@ pub(super) fn paint(painter: &Painter, view: &View, table: &Table, looks: &Looks
                 .mix(theme::LINE, glow * 0.4)
         };
         let strength = if looks.receding { 0.35 } else { 1.0 };
-        let each = steps(view, route);
         if glow > 0.0 && detail > Detail::Blocks {
             let halo = ink(kind).gamma_multiply(HALO.1 * glow * strength);
-            glows.line(view, route, each, HALO.0 * view.camera.zoom.clamp(0.5, 1.2), halo);
+            glows.line(view, route, HALO.0 * view.camera.zoom.clamp(0.5, 1.2), halo);
         }
         let width = (WIDTH + BEAT * glow) * view.camera.zoom.clamp(0.5, 1.2);
-        lines.line(view, route, each, width, ink(colour).gamma_multiply(strength));
+        lines.line(view, route, width, ink(colour).gamma_multiply(strength));
     }
     painter.add(Shape::mesh(glows.mesh));
     painter.add(Shape::mesh(lines.mesh));
@@ -74,7 +72,7 @@ pub(super) fn paint(painter: &Painter, view: &View, table: &Table, looks: &Looks
 /// Paints one wire that is not in the network: the one that is being drawn.
 pub(super) fn paint_one(painter: &Painter, view: &View, route: &Route, colour: Rgb) {
     let mut strip = Strip::default();
-    strip.line(view, route, 24, 2.2, ink(colour));
+    strip.line(view, route, 2.2, ink(colour));
     painter.add(Shape::mesh(strip.mesh));
 }
 
@@ -86,12 +84,13 @@ pub(super) fn kind_colour(output: &Port, activity: &Activity) -> Rgb {
     last.map_or_else(|| colour::of_port(output.kinds), |value| colour::of(value.kind()))
 }
 
-/// Pieces of a curve: no more than can be told apart.
-fn steps(view: &View, route: &Route) -> usize {
-    let Area { min, max } = route.area;
-    let long = view.length((max - min).length()) / route.curves.len().max(1) as f32;
-    let most = if view.detail() == Detail::Blocks { 5 } else { 40 };
-    ((long / 12.0) as usize).clamp(3, most)
+/// Pieces of a curve of this length on the plane: no more than can be told apart.
+fn pieces(view: &View, long: f32) -> usize {
+    let (point, most) = match view.detail() {
+        Detail::Blocks => (16.0, 5),
+        _ => (10.0, 40),
+    };
+    ((view.length(long) / point) as usize + 2).min(most)
 }
 
 /// Lines as strips of triangles with soft edges.
@@ -102,9 +101,10 @@ struct Strip {
 }
 
 impl Strip {
-    fn line(&mut self, view: &View, route: &Route, each: usize, width: f32, colour: Color32) {
+    fn line(&mut self, view: &View, route: &Route, width: f32, colour: Color32) {
         self.points.clear();
-        self.points.extend(route.points(each).map(|at| view.screen(at)));
+        self.points
+            .extend(route.points(|long| pieces(view, long)).map(|at| view.screen(at)));
         let count = self.points.len();
         if count < 2 {
             return;
