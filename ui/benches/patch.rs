@@ -178,7 +178,7 @@ fn main() {
         }
         let mut triangles = 0;
         let taken = median_ms(&mut window, Window::turn, |window| {
-            triangles = window.triangles(Vec::new())
+            triangles = window.triangles(Vec::new());
         });
         let share = taken / FRAME_MS;
         println!("picture  {name:>5}  {triangles:>7} triangles  {taken:8.2} ms  {share:5.2} of a frame");
