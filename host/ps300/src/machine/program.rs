@@ -5,6 +5,7 @@
 //! where that is asked for: without it a reloaded machine starts from what was written.
 //! A thing whose name was forgotten is printed under a spare name and forgotten again at the end.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use super::Machine;
@@ -141,8 +142,15 @@ impl Machine {
     }
 
     fn print_wires(&self, program: &mut Vec<Command>) {
-        for Numbered { id, instance } in self.network.instances() {
-            let name = self.spelt(Thing::Instance(id), instance.name);
+        let defined = self.names.defined().into_iter();
+        let place: BTreeMap<Name, usize> = defined.map(|entry| self.names.spelling(entry)).zip(0..).collect();
+        let senders = self.network.instances().into_iter();
+        let mut senders: Vec<(Name, Numbered<'_>)> = senders
+            .map(|it| (self.spelt(Thing::Instance(it.id), it.instance.name), it))
+            .collect();
+        // What sends for a node is made when that is first connected, so they follow in the order of the nodes.
+        senders.sort_by_key(|(name, it)| (it.instance.role == Role::Node).then(|| place.get(name)));
+        for (name, Numbered { id, instance }) in senders {
             for output in 1..=instance.output_count() as u8 {
                 for (to, inlet) in self
                     .destinations(id, output)
