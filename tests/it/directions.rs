@@ -17,7 +17,10 @@ const MAY_DEPEND_ON: &[(&str, &[&str])] = &[
         &["motion", "solid", "ps300", "device", "player", "device-profiles"],
     ),
     ("firmware-sim", &["device-profiles"]),
-    ("bench", &["rig", "device", "firmware-sim", "device-profiles", "ps300"]),
+    (
+        "bench",
+        &["rig", "device", "firmware-sim", "device-profiles", "ps300"],
+    ),
     ("ui", &["rig", "motion", "solid", "ps300"]),
     ("dialrig", &["rig", "bench", "ui", "motion", "solid", "ps300"]),
 ];

@@ -1,4 +1,4 @@
-//! `networks/inking.ps300` against a model of the paper: strokes, what of them can be taken back, band and cursor.
+//! `networks/inking.ps300` against a model of the paper: strokes, what of them can be taken back, band and pointer.
 
 use glam::{DMat4, DVec2};
 
@@ -138,21 +138,21 @@ fn the_last_stroke_is_taken_back_once() {
 }
 
 #[test]
-fn the_cursor_is_where_the_pen_is_and_only_while_it_is_near() {
+fn the_pointer_is_where_the_pen_is_and_only_while_it_is_near() {
     let mut hands = Hands::on(&["inking.ps300"]);
-    assert!(drawn(&hands, "cursor").is_empty());
+    assert!(drawn(&hands, "pointer").is_empty());
     let at = DVec2::new(0.25, -0.5);
     for (down, strokes, width) in [(false, 2, 0.1), (true, 4, 0.02)] {
         hands.pen(at, down);
-        let cursor = drawn(&hands, "cursor");
-        assert_eq!(cursor.len(), strokes);
-        let across = cursor[0][1].x - cursor[0][0].x;
-        let middle = cursor.iter().map(|[from, to]| from.midpoint(*to)).sum::<DVec2>() / strokes as f64;
+        let pointer = drawn(&hands, "pointer");
+        assert_eq!(pointer.len(), strokes);
+        let across = pointer[0][1].x - pointer[0][0].x;
+        let middle = pointer.iter().map(|[from, to]| from.midpoint(*to)).sum::<DVec2>() / strokes as f64;
         assert!(
             (across - width).abs() < 1e-12 && (middle - at).length() < 1e-12,
-            "{cursor:?}"
+            "{pointer:?}"
         );
     }
     hands.away();
-    assert!(drawn(&hands, "cursor").is_empty());
+    assert!(drawn(&hands, "pointer").is_empty());
 }

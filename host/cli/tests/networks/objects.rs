@@ -151,7 +151,7 @@ impl Model {
             (4, _) => thing.scale = (thing.scale + 0.2 * turns).clamp(0.01, 1000.0),
             (5..=7, _) => thing.turned_deg[usize::from(dial) - 5] += 200.0 * turns,
             (_, Dials::Surface) => thing.specular = (thing.specular + 5.0 * turns).clamp(0.0, 10.0),
-            (_, _) => self.back_clip = (self.back_clip + 5.0 * turns).clamp(6.0, 60.0),
+            (_, _) => self.back_clip = (self.back_clip + 5.0 * turns).clamp(9.0, 60.0),
         }
     }
 
