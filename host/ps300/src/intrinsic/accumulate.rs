@@ -237,13 +237,7 @@ fn add(
         return domain("the sum is not finite; it was left as it was");
     }
     *sum = next;
-    let moved = next
-        .iter()
-        .zip(*sent)
-        .map(|(a, b)| (a - b) * (a - b))
-        .sum::<f64>()
-        .sqrt();
-    if moved >= least {
+    if least <= 0.0 || moved(&next, sent) >= least {
         let value = sendable(kind, next)?;
         *sent = next;
         outputs.send(1, value);
@@ -251,7 +245,17 @@ fn add(
     Ok(())
 }
 
+/// How far two sums are apart.
+fn moved(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b) * (a - b))
+        .sum::<f64>()
+        .sqrt()
+}
+
 /// A limit for each component. Components the kind does not have stay at zero, within any limit.
+#[inline]
 fn bounds(inputs: &Inputs<'_>, input: u8, kind: Kind, absent: f64) -> Result<[f64; 4], Fault> {
     let used = count(kind);
     let fill = |x: f64| std::array::from_fn(|i| if i < used { x } else { absent });
