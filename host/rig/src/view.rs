@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DMat4, DVec3};
 use motion::figure::Placed;
 use motion::figure::posing::View;
 
@@ -28,6 +28,13 @@ impl ViewState {
             centre: self.centre,
             scale: self.scale,
         }
+    }
+
+    /// From the world to where a tablet points, -1 to 1 each way: what networks pick by.
+    pub fn tablet_from_world(&self) -> DMat4 {
+        DMat4::from_scale(DVec3::splat(self.scale))
+            * DMat4::from_mat3(self.view_from_world())
+            * DMat4::from_translation(-self.centre)
     }
 
     /// The front view that holds a placed figure.

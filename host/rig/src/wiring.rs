@@ -148,6 +148,11 @@ impl Wiring {
         self.firings_left -= self.machine.go_on(self.firings_left).firings();
     }
 
+    /// Says how the rig's picture shows the world, so that what lies in it can be picked.
+    pub(crate) fn see_from(&mut self, view: &crate::snapshot::ViewState) {
+        self.machine.set_camera(view.tablet_from_world());
+    }
+
     /// Moves network time and lets clocks send. Returns what went wrong, in words.
     pub(crate) fn tick(&mut self, secs: f64) -> Vec<String> {
         self.secs = secs;

@@ -6,6 +6,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::flat::{Flat, Piece, Shape};
+use super::plates::{BoundPlate, PlatePipeline};
 use super::raster::ring_width;
 use super::scene::Mark;
 use super::theme;
@@ -63,6 +64,7 @@ fn push_instances(piece: &Piece, out: &mut Vec<Instance>) {
 pub struct LinePipeline {
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
+    plates: PlatePipeline,
 }
 
 impl LinePipeline {
@@ -107,6 +109,7 @@ impl LinePipeline {
         });
         LinePipeline {
             layout: pipeline.get_bind_group_layout(0),
+            plates: PlatePipeline::new(device),
             pipeline,
         }
     }
@@ -117,6 +120,9 @@ pub struct LineBuffer {
     instances: wgpu::Buffer,
     capacity: usize,
     count: u32,
+    /// How many instances lie under the plate.
+    under: u32,
+    plate: Option<BoundPlate>,
     target: wgpu::Buffer,
     bind: wgpu::BindGroup,
     staging: Vec<Instance>,
@@ -145,6 +151,8 @@ impl LineBuffer {
             instances,
             capacity,
             count: 0,
+            under: 0,
+            plate: None,
             target,
             bind,
             staging: Vec::new(),
@@ -152,11 +160,24 @@ impl LineBuffer {
     }
 
     /// Takes over a projected scene for a target of `size` pixels.
-    pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, flat: &Flat, size: [u32; 2]) {
+    pub fn upload(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        pipeline: &LinePipeline,
+        flat: &Flat,
+        size: [u32; 2],
+    ) {
         self.staging.clear();
-        for piece in &flat.pieces {
+        let (under, over) = flat.pieces.split_at(flat.under.min(flat.pieces.len()));
+        for piece in under {
             push_instances(piece, &mut self.staging);
         }
+        self.under = self.staging.len() as u32;
+        for piece in over {
+            push_instances(piece, &mut self.staging);
+        }
+        let plate = flat.plate.as_ref();
+        self.plate = plate.and_then(|plate| pipeline.plates.bind(device, queue, plate, size));
         if self.staging.len() > self.capacity {
             self.capacity = self.staging.len().next_power_of_two();
             self.instances = instance_buffer(device, self.capacity);
@@ -169,13 +190,26 @@ impl LineBuffer {
 
     /// Draws what was taken over.
     pub fn draw(&self, pipeline: &LinePipeline, pass: &mut wgpu::RenderPass<'_>) {
-        if self.count == 0 {
+        self.draw_some(pipeline, pass, 0..self.under);
+        if let Some(plate) = &self.plate {
+            pipeline.plates.draw(plate, pass);
+        }
+        self.draw_some(pipeline, pass, self.under..self.count);
+    }
+
+    fn draw_some(
+        &self,
+        pipeline: &LinePipeline,
+        pass: &mut wgpu::RenderPass<'_>,
+        instances: std::ops::Range<u32>,
+    ) {
+        if instances.is_empty() {
             return;
         }
         pass.set_pipeline(&pipeline.pipeline);
         pass.set_bind_group(0, &self.bind, &[]);
         pass.set_vertex_buffer(0, self.instances.slice(..));
-        pass.draw(0..4, 0..self.count);
+        pass.draw(0..4, instances);
     }
 }
 

@@ -14,6 +14,7 @@ pub mod lines;
 pub mod offscreen;
 pub mod palette;
 pub mod picture;
+mod plates;
 pub mod puppet;
 pub mod raster;
 pub mod scene;

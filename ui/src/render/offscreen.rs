@@ -163,7 +163,8 @@ impl Target {
         pipeline: &LinePipeline,
         flat: &Flat,
     ) {
-        self.lines.upload(device, queue, flat, self.texture.size);
+        self.lines
+            .upload((device, queue), pipeline, flat, self.texture.size);
         let mut pass = self.texture.pass(encoder);
         self.lines.draw(pipeline, &mut pass);
     }

@@ -3,5 +3,6 @@
 mod hands;
 mod patch;
 mod render;
+mod structures;
 mod studio;
 mod walker;

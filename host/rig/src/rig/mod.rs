@@ -157,6 +157,7 @@ impl Rig {
         for command in &commands {
             self.apply(command);
         }
+        self.wiring.see_from(&self.view);
         for remark in self.wiring.tick(self.secs()) {
             self.note(NoteLevel::Warning, remark);
         }
