@@ -9,7 +9,9 @@ use std::sync::Arc;
 use bench::hands::Movement;
 use bench::world::{DIAL_BOX, Equipment, TABLET, World, WorldOptions};
 use firmware_sim::hands::Turn;
-use rig::{Command, DeviceHealth, PoseCommand, PuppetCommand, PuppetState, Snapshot, TransportCommand};
+use rig::{
+    Command, DeviceHealth, NetworkEdit, PoseCommand, PuppetCommand, PuppetState, Snapshot, TransportCommand,
+};
 use ui::panels::layout::Areas;
 use ui::render::film::write_png;
 use ui::render::offscreen::Headless;
@@ -180,6 +182,37 @@ fn displays(world: &World) -> Vec<String> {
                 .map_or(String::new(), |text| text.trim_end().to_owned())
         })
         .collect()
+}
+
+#[test]
+fn the_patch_panel_shows_the_rigs_own_network_and_its_edits() {
+    if no_adapter() {
+        return;
+    }
+    let mut world = world();
+    world.step([Command::LookAtNetwork(true)]);
+    turn(&mut world, 1, 0.1, 0.2);
+    world.run_for(0.3);
+    let mut studio = Studio::new();
+    studio.choices().patch = true;
+    let size = (1440, 900);
+    let picture =
+        ui::still::draw(&mut studio, world.seen(), size, 1.0).expect("the adapter that started also draws");
+    keep(&picture, "patch");
+    assert_eq!(count(&picture, theme::FAULTED), 0, "red where nothing is faulted");
+    let text = "listener := F:NOP; CONNECT DIALS<1>:<1>listener;";
+    world.step([Command::Network(NetworkEdit::Commands(text.into()))]);
+    turn(&mut world, 1, 0.1, 0.2);
+    world.run_for(0.3);
+    let network = world.seen().network.as_ref().expect("somebody looks");
+    let listener = network.picture.find(&"listener".into()).expect("it was made");
+    let sent = &network.activity.outputs[network.picture.boxes[listener].first_output];
+    assert!(sent.sent > 0, "it hears the dial");
+    assert!(network.can_undo && network.text.contains("listener"));
+    world.step([Command::Network(NetworkEdit::Undo)]);
+    world.run_for(0.05);
+    let network = world.seen().network.as_ref().expect("somebody still looks");
+    assert_eq!(network.picture.find(&"listener".into()), None);
 }
 
 /// Makes a studio in one state.

@@ -29,6 +29,8 @@ pub(super) struct Text {
     draft: String,
     /// The network's own text as last seen.
     known: Option<Arc<str>>,
+    /// The draft as it was applied and what was known to be wrong then, until the network answers.
+    applied: Option<(String, Arc<[Diagnostic]>)>,
     remarks: Vec<Diagnostic>,
     lines: BTreeMap<Name, u32>,
     painted: Option<(String, Arc<Galley>)>,
@@ -55,15 +57,23 @@ impl Text {
     }
 
     fn see(&mut self, look: &Look) {
-        let same = self
-            .known
-            .as_ref()
-            .is_some_and(|known| Arc::ptr_eq(known, &look.text) || **known == *look.text);
-        if same {
+        let answer = |(_, before): &(String, Arc<[Diagnostic]>)| !Arc::ptr_eq(before, &look.diagnostics);
+        if self.applied.as_ref().is_some_and(answer) && !look.diagnostics.is_empty() {
+            // Refused after all: the draft stays, to be put right.
+            self.applied = None;
+            self.remarks = look.diagnostics.to_vec();
+            self.painted = None;
+        }
+        let same = self.known.as_ref();
+        if same.is_some_and(|known| Arc::ptr_eq(known, &look.text) || **known == *look.text) {
             return;
         }
         // A draft that somebody is working on is not taken away by an edit elsewhere.
-        if !self.is_changed() {
+        let answered = self
+            .applied
+            .take()
+            .is_some_and(|(applied, _)| applied == self.draft);
+        if answered || !self.is_changed() {
             self.draft = look.text.to_string();
             self.remarks.clear();
             self.painted = None;
@@ -104,8 +114,7 @@ impl Text {
                 .iter()
                 .all(|remark| remark.severity == Severity::Warning)
             {
-                // What comes back is the network's own spelling of it.
-                self.known = Some(self.draft.as_str().into());
+                self.applied = Some((self.draft.clone(), look.diagnostics.clone()));
                 return Some(Wish::Apply(self.draft.clone()));
             }
         }
@@ -155,6 +164,8 @@ impl Text {
                     .id(text_id())
                     .font(style::digits(theme::SIZE_SMALL))
                     .code_editor()
+                    // A press below the last line is in the text as well.
+                    .min_size(ui.available_size())
                     .frame(egui::Frame::NONE)
                     .desired_width(f32::INFINITY)
                     .layouter(&mut layouter)

@@ -160,6 +160,25 @@ fn folding_keeps_the_wires_that_cross_the_border() {
 }
 
 #[test]
+fn the_text_is_the_network_when_it_is_right_and_applied() {
+    let mut room = room(DIALS);
+    room.harness.state_mut().studio.patch().show_text(true);
+    room.step();
+    let inside = room.area().right_center() - vec2(120.0, 0.0);
+    let before = room.link.text();
+    for (typed, taken) in [("a := F:NOPE;", false), ("a := F:NOP;", true)] {
+        room.click(inside);
+        room.press(Modifiers::COMMAND, Key::A);
+        room.write(typed);
+        assert_eq!(room.link.text(), before, "nothing happens while one types");
+        room.press(Modifiers::COMMAND, Key::Enter);
+        assert_eq!(room.link.text().trim() == typed, taken, "{}", room.link.text());
+    }
+    room.press(Modifiers::NONE, Key::F);
+    assert!(room.place("a").is_positive());
+}
+
+#[test]
 fn what_is_typed_is_no_order() {
     let mut room = room(OBJECT);
     room.harness.hover_at(room.area().center());
