@@ -206,3 +206,26 @@ fn host_parameters_stay() {
     assert_eq!(arrived, [("POSE".to_owned(), Value::Real(2.0))]);
     let _: Vec<Watched> = m.drain_watched().collect();
 }
+
+#[test]
+fn trouble_is_traced_to_the_text_that_made_it() {
+    let mut m = Machine::new();
+    assert_eq!(
+        m.load_named("first.ps300", "a := F:ADDC; SEND 1 TO <2>a; b := F:NOP;"),
+        []
+    );
+    let from = m.network_text();
+    assert_eq!(
+        m.edit_program(&from, &format!("{from}\nc := F:ADDC; SEND 1 TO <2>c;")),
+        []
+    );
+    for name in ["a", "c"] {
+        m.send(name, Input::Number(1), "text").expect_err("takes numbers");
+        m.load(&format!(
+            "VARIABLE v; STORE V2D(1,2) IN <1>v; SEND VALUE(v) TO <1>{name};"
+        ));
+    }
+    let said: Vec<String> = m.reports().iter().map(ToString::to_string).collect();
+    assert!(said[0].contains("first.ps300:1"), "{said:?}");
+    assert!(said[1].contains("program:"), "{said:?}");
+}

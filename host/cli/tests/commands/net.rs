@@ -282,3 +282,37 @@ fn networks_are_printed_drawn_and_looked_up() {
         ],
     );
 }
+
+#[test]
+fn a_network_is_patched_while_it_runs_and_printed_as_it_then_is() {
+    check(
+        &[
+            ("sum.ps300", b"sum := F:ACCUMULATE; CONNECT DIALS<1>:<1>sum;"),
+            (
+                "patch.txt",
+                b"at 0.2 twice := F:MULC;\nat 0.2 SEND 2 TO <2>twice;\nat 0.2 CONNECT sum<1>:<1>twice;\n\
+                at 0.4 DELETE twice;\nat 0.5 later := F:ACCUMULATE;\n",
+            ),
+        ],
+        &[
+            call(
+                "net run sum.ps300 --events patch.txt --dial 1:0.5@0.1 --dial 1:0.5@0.3 --watch twice<1> --state",
+                0,
+                &[
+                    r#"{"t":0.3,"from":"twice<1>","kind":"real","value":2.0}"#,
+                    "sum := F:ACCUMULATE;",
+                    "later := F:ACCUMULATE;",
+                    "CONNECT DIALS<1>:<1>sum;",
+                    "SETUP STATE 1,1 IN sum;",
+                ],
+                &[],
+            ),
+            call(
+                "--json net run sum.ps300 --until 0 --state",
+                0,
+                &[r#"{"network":"sum := "#],
+                &[],
+            ),
+        ],
+    );
+}

@@ -9,7 +9,7 @@ use super::Machine;
 use super::define::Kept;
 use crate::language::{Command, Definition, Input, Name, Node};
 use crate::names::{NameId, Owner, Thing};
-use crate::network::{InstanceId, Role};
+use crate::network::{InstanceId, Made as Place, Role};
 use crate::structure::NodeId;
 use crate::value::Value;
 
@@ -29,6 +29,8 @@ struct Listed {
     made: Made,
     /// False after FORGET.
     known: bool,
+    /// The command that made it, where that has a place in a text of its own.
+    place: Option<Place>,
 }
 
 /// What a display node was told, for one that is made alike again.
@@ -56,7 +58,7 @@ impl Machine {
         let new = wanted.listed();
         let (kept, carried, mut anew) = self.take_away(wanted, &new);
         for listed in new.iter().filter(|listed| anew.contains(&listed.name)) {
-            self.make_alike(listed, &kept);
+            self.execute_made(listed.place.clone(), |machine| machine.make_alike(listed, &kept));
         }
         let made = new.iter().filter(|listed| anew.contains(&listed.name));
         let labels: Vec<Name> = made.flat_map(|listed| wanted.labels_in(listed.thing)).collect();
@@ -117,12 +119,14 @@ impl Machine {
             Thing::Sink(_) => return None,
         };
         let known = self.names.entry(entry).known;
+        let place = self.names.entry(entry).made.clone();
         Some(Listed {
             name,
             entry,
             thing,
             made,
             known,
+            place: place.filter(|place| !place.source.is_empty()),
         })
     }
 

@@ -54,7 +54,7 @@ impl Machine {
         self.execute_made(Some(made), |machine| machine.execute(command))
     }
 
-    fn execute_made<T>(&mut self, made: Option<Made>, execute: impl FnOnce(&mut Self) -> T) -> T {
+    pub(super) fn execute_made<T>(&mut self, made: Option<Made>, execute: impl FnOnce(&mut Self) -> T) -> T {
         self.names.making.clone_from(&made);
         self.network.making = made;
         let done = execute(self);

@@ -11,6 +11,9 @@ use crate::language::{Command, Diagnostic, Name, Severity, parse, print};
 use crate::network::SinkId;
 use crate::value::Kinds;
 
+/// What reports call a program that was edited whole.
+const PROGRAM: &str = "program";
+
 /// A command of a program that was refused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
@@ -43,8 +46,8 @@ impl Machine {
     /// Commands that send and stand in the second alone are executed. If it has errors that the first has not,
     /// they are returned and nothing is changed.
     pub fn edit_program(&mut self, from: &str, to: &str) -> Vec<Diagnostic> {
-        let (before, known) = self.sketch_of(from);
-        let (wanted, found) = self.sketch_of(to);
+        let (before, known) = self.sketch_of(PROGRAM, from);
+        let (wanted, found) = self.sketch_of(PROGRAM, to);
         let is_error = |it: &&Diagnostic| it.severity == Severity::Error;
         let fault = |it: &Diagnostic| !known.iter().any(|other| other.message == it.message);
         if found.iter().filter(is_error).any(fault) {
@@ -68,8 +71,8 @@ impl Machine {
     /// [`Machine::network_text_with_state`] wrote them before and after it. Messages are told to what has to be
     /// made anew, or had been, and to nothing else: what was sent is not taken back.
     pub fn restore(&mut self, from: &str, to: &str) {
-        let (before, _) = self.sketch_of(from);
-        let (wanted, _) = self.sketch_of(to);
+        let (before, _) = self.sketch_of("", from);
+        let (wanted, _) = self.sketch_of("", to);
         let remade = self.become_like(&wanted, Some(&before));
         let used = wanted.made_used(&before);
         self.tell(&commands(to), |to, _| {
@@ -94,9 +97,9 @@ impl Machine {
         sketch
     }
 
-    fn sketch_of(&self, text: &str) -> (Self, Vec<Diagnostic>) {
+    fn sketch_of(&self, called: &str, text: &str) -> (Self, Vec<Diagnostic>) {
         let mut sketch = self.sketch();
-        let found = sketch.load(text);
+        let found = sketch.load_named(called, text);
         (sketch, found)
     }
 

@@ -23,6 +23,7 @@ Examples:
   dialrig net run networks/figure.ps300 --dial 1:0.25@0.5 --watch 'turn<1>'
   dialrig net run clock.ps300 --until 2 --watch 'tick<1>' --watch 'DLABEL1<1>'
   dialrig net run slew.ps300 --events turns.txt --watch 'slew<1>' > slew.jsonl
+  dialrig net run dials.ps300 --dial 1:0.5@0.1 --state > later.ps300
 
 An events file has one command a line, times ascending: at 0.5 SEND 0.25 TO <1>turn;
 What a device sends is written at 0.5 EMIT FIX(3) FROM FKEYS<1>;";
@@ -49,6 +50,9 @@ pub(super) struct Args {
     /// Prints what leaves this output, or what reaches this input of a label, a lamp or a parameter
     #[arg(long, value_name = "NAME<N>", value_parser = Watch::parse)]
     watch: Vec<Watch>,
+    /// Prints the network with what messages have done to it, at the end, as a file to go on from
+    #[arg(long)]
+    state: bool,
     /// Turns dial N by TURNS at SECS, as one message
     #[arg(long, value_name = "N:TURNS@SECS", value_parser = events::dial)]
     dial: Vec<Event>,
@@ -113,7 +117,16 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     };
     let ended = session.play(&events, until_secs);
     session.troubles.show(console);
-    ended.map(|()| Exit::Done)
+    ended?;
+    if args.state {
+        let network = session.machine.network_text_with_state();
+        if console.json() {
+            console.record(&StateRecord { network: &network })?;
+        } else {
+            console.line(network.trim_end())?;
+        }
+    }
+    Ok(Exit::Done)
 }
 
 /// An output that neither is there nor will be made by an event was misspelt.
@@ -137,6 +150,12 @@ fn check_watch(watch: &Watch, machine: &Machine, events: &[Event]) -> Result<(),
         }
     };
     Err(Failure::refused(format!("there is no output {name}<{output}> to watch")).with_hint(hint))
+}
+
+/// The network at the end, where all is JSON.
+#[derive(serde::Serialize)]
+struct StateRecord<'a> {
+    network: &'a str,
 }
 
 /// A network while it runs.
