@@ -40,7 +40,7 @@ fn steady() -> String {
         .map(|k| format!("acc{k} := F:ACCUMULATE; SEND {k} TO <4>acc{k}; CONNECT DIALS<{k}>:<1>acc{k};\n"))
         .collect();
     let picture = "turn := F:XROTATE; CONNECT acc1<1>:<1>turn; rot := ROTATE IN X 0 THEN shape;
-        CONNECT turn<1>:<1>rot; shape := VECTOR_LIST N=2 0,0 1,1; DISPLAY rot;\n";
+        CONNECT turn<1>:<1>rot; shape := VECTOR_LIST N=2 0,0 1,1; DISPLAY rot; dash := PATTERN 1 1 LENGTH 0.1;\n";
     sums.concat() + picture
 }
 
@@ -68,7 +68,9 @@ const LITERALS: [&str; 12] = [
     "V3D(1,2,3)",
     "M3D(1,0,0,0,1,0,0,0,1)",
 ];
-const NODES: [&str; 8] = [
+const NODES: [&str; 10] = [
+    "SURFACE_RENDERING THEN shape",
+    "BSPLINE ORDER=2 N=2 0,0 1,1 CHORDS=4",
     "ROTATE IN Y 30 THEN shape",
     "SCALE BY 2 THEN shape",
     "TRANSLATE BY 1,2,3 THEN rot",
@@ -109,11 +111,13 @@ fn rank(name: &str) -> Option<u64> {
     }
     match name {
         "DIALS" | "BUTTONSIN" => Some(0),
-        _ if name.starts_with("acc") || ["turn", "rot", "shape"].contains(&name) => None,
+        _ if name.starts_with("acc") || ["turn", "rot", "shape", "dash"].contains(&name) => None,
         _ => Some(if name.starts_with('s') {
             FUNCTIONS + 1
-        } else {
+        } else if name.starts_with('n') {
             FUNCTIONS + 2
+        } else {
+            FUNCTIONS + 3
         }),
     }
 }
@@ -155,7 +159,7 @@ fn wire(dice: &mut Dice, machine: &Machine) -> String {
 fn edit(dice: &mut Dice, machine: &Machine) -> String {
     let f = |dice: &mut Dice| format!("f{}", dice.below(FUNCTIONS));
     let n = |dice: &mut Dice| format!("n{}", dice.below(5));
-    match dice.below(32) {
+    match dice.below(33) {
         0..=16 => wire(dice, machine),
         17 => format!("DISCONNECT {}:ALL;", f(dice)),
         18..=20 => format!("{} := {};", f(dice), function(dice)),
@@ -187,6 +191,7 @@ fn edit(dice: &mut Dice, machine: &Machine) -> String {
             n(dice)
         ),
         30 => format!("VARIABLE v{}; DELETE s{};", dice.below(2), dice.below(2)),
+        31 => format!("PATTERN {} WITH dash;", n(dice)),
         _ => format!(
             "BEGIN\n{}\n{}\n{}\nEND;",
             edit(dice, machine),
@@ -396,7 +401,7 @@ fn run(seed: u64, edits: usize) -> Bench {
 
 #[test]
 fn a_thousand_edits_and_undos_while_dials_stream() {
-    for seed in [1, 2, 3] {
+    for seed in 1..20 {
         let mut bench = run(seed, EDITS);
         assert!(bench.undone > EDITS / 8, "{} undone", bench.undone);
         let mut again = bench.reloaded();

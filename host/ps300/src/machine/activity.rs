@@ -91,7 +91,6 @@ impl Machine {
                 Thing::Instance(id) => {
                     if let Some(instance) = self.network.instance(id) {
                         inputs.extend(instance.input_ports().iter().map(InputActivity::of));
-                        outputs.extend(instance.output_ports().iter().map(OutputActivity::of));
                     }
                 }
                 Thing::Sink(id) => {
@@ -99,10 +98,13 @@ impl Machine {
                 }
                 Thing::Node(_) => {}
             }
-            reports.push(self.network.reports.counted(&shown.name));
             // Nodes keep no messages; and a picture of another revision must not shift what follows.
             inputs.resize_with(shown.first_input + shown.inputs.len(), InputActivity::default);
+            if let Some(sender) = self.sender(*thing).and_then(|id| self.network.instance(id)) {
+                outputs.extend(sender.output_ports().iter().map(OutputActivity::of));
+            }
             outputs.resize_with(shown.first_output + shown.outputs.len(), OutputActivity::default);
+            reports.push(self.network.reports.counted(&shown.name));
         }
     }
 

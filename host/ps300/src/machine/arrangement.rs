@@ -43,10 +43,17 @@ impl Machine {
             .collect();
         let find = |thing: Thing| here.get(names.get(&thing)?).copied();
         let mut order = Vec::new();
+        let mut joined = BTreeSet::new();
         for Numbered { id, instance } in wanted.network.instances() {
-            let Some(Thing::Instance(from)) = find(Thing::Instance(id)) else {
+            let Some(name) = names.get(&wanted.sends_for(id)) else {
                 continue;
             };
+            // Only rendering nodes need one, and the same node has one there.
+            let _ = self.make_sender(name);
+            let Some(from) = here.get(name).and_then(|&thing| self.sender(thing)) else {
+                continue;
+            };
+            joined.insert(from);
             if instance.role != Role::Device {
                 order.push(from);
             }
@@ -59,7 +66,26 @@ impl Machine {
                 }
             }
         }
+        let idle = self.senders.values().filter(|sender| !joined.contains(sender));
+        for from in idle.copied().collect::<Vec<_>>() {
+            self.network.disconnect_all(from);
+        }
         self.network.renumber(&order);
+    }
+
+    /// Dashes what `wanted` dashes.
+    pub(super) fn dash_alike(&mut self, wanted: &Self) {
+        let here = self.called();
+        for (name, thing) in wanted.called() {
+            let (Thing::Node(there), Some(&Thing::Node(id))) = (thing, here.get(&name)) else {
+                continue;
+            };
+            let pattern = wanted.pattern_of(there).map(|entry| wanted.names.spelling(entry));
+            let pattern = pattern.map(|name| self.entry_called(&name));
+            if self.pattern_of(id) != pattern {
+                self.structure.set_pattern(id, pattern);
+            }
+        }
     }
 
     pub(super) fn set_constants(&mut self, wanted: &Self, before: Option<&Self>, anew: &BTreeSet<Name>) {

@@ -72,6 +72,7 @@ impl Machine {
             }
         }
         self.rearrange(wanted);
+        self.dash_alike(wanted);
         self.set_constants(wanted, before, &anew);
         self.set_panel(wanted, before);
         self.show_alike(wanted);

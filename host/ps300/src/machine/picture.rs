@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::Machine;
+use super::rendered::MESSAGE;
 use crate::language::{Input, Name};
 use crate::names::{Owner, Thing};
 use crate::network::{Inlet, Instance, InstanceId, Numbered, Outlet, Role, SinkId};
@@ -143,7 +144,7 @@ impl Machine {
         for Numbered { id, instance } in self.network.instances() {
             for output in 1..=instance.output_count() as u8 {
                 for &inlet in self.network.destinations(Outlet { from: id, output }) {
-                    joined.things.insert(Thing::Instance(id));
+                    joined.things.insert(self.sends_for(id));
                     let (thing, input) = thing_at(inlet);
                     joined.things.insert(thing);
                     if let Thing::Node(node) = thing {
@@ -171,6 +172,7 @@ impl Machine {
             .network
             .instances()
             .into_iter()
+            .filter(|numbered| numbered.instance.role != Role::Node)
             .map(|Numbered { id, instance }| (Thing::Instance(id), self.instance_box(id, instance)))
             .collect();
         all.sort_by_key(|(_, shown)| shown.role != BoxRole::Device);
@@ -243,11 +245,17 @@ impl Machine {
             kinds: self.structure.accepts(id, input).unwrap_or(Kinds::NONE),
             constant: false,
         });
+        let rendered = self.structure.renders(id).then_some(PortPicture {
+            input: Input::Number(1),
+            kinds: MESSAGE,
+            constant: false,
+        });
         BoxPicture {
             role: BoxRole::Node,
             what: self.structure.what(id).into(),
             structure: is_label.then(|| around(&name)).flatten(),
             inputs: ports.collect(),
+            outputs: rendered.into_iter().collect(),
             ..BoxPicture::bare(name)
         }
     }
@@ -275,7 +283,7 @@ impl Machine {
     fn add_wires(&self, picture: &mut Picture) {
         let places: BTreeMap<Thing, usize> = picture.things.iter().copied().zip(0..).collect();
         for (from_box, &thing) in picture.things.iter().enumerate() {
-            let Thing::Instance(from) = thing else { continue };
+            let Some(from) = self.sender(thing) else { continue };
             for output in 1..=picture.boxes[from_box].outputs.len() as u8 {
                 for &inlet in self.network.destinations(Outlet { from, output }) {
                     let (to, input) = thing_at(inlet);

@@ -122,18 +122,19 @@ impl Machine {
     /// PATTERN … WITH: after all definitions, as either may have been made anew.
     fn print_patterns(&self, program: &mut Vec<Command>) {
         for entry in self.names.defined() {
-            let node = self.names.node(entry).and_then(|id| self.structure.slot(id));
-            if let Some(Body::Vectors { pattern, .. } | Body::Curve { pattern, .. }) =
-                node.map(|slot| &slot.body)
-                && let Some(pattern) = *pattern
-                && self.is_pattern(pattern)
-            {
+            let pattern = self.names.node(entry).and_then(|id| self.pattern_of(id));
+            if let Some(pattern) = pattern {
                 program.push(Command::PatternWith {
                     list: self.names.spelling(entry),
                     pattern: self.names.spelling(pattern),
                 });
             }
         }
+    }
+
+    /// What a node is dashed with, if that is a pattern still.
+    pub(super) fn pattern_of(&self, id: NodeId) -> Option<NameId> {
+        self.structure.pattern(id).filter(|&name| self.is_pattern(name))
     }
 
     fn is_pattern(&self, name: NameId) -> bool {

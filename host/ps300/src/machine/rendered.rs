@@ -18,7 +18,7 @@ use crate::value::Kinds;
 /// Who sends for a node.
 pub(super) type Senders = BTreeMap<NodeId, InstanceId>;
 
-const MESSAGE: Kinds = Kinds::INTEGER.or(Kinds::BOOLEAN);
+pub(super) const MESSAGE: Kinds = Kinds::INTEGER.or(Kinds::BOOLEAN);
 
 static SENDER: Spec = Spec::pure(
     "RENDERED",
@@ -64,6 +64,12 @@ impl Machine {
             Thing::Node(node) => self.senders.get(&node).copied(),
             Thing::Sink(_) => None,
         }
+    }
+
+    /// What an instance sends for: a node, or itself.
+    pub(super) fn sends_for(&self, id: InstanceId) -> Thing {
+        let node = self.senders.iter().find(|(_, sender)| **sender == id);
+        node.map_or(Thing::Instance(id), |(&node, _)| Thing::Node(node))
     }
 
     /// Takes the senders of nodes that go.

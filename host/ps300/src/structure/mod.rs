@@ -172,6 +172,21 @@ impl Structure {
         gone
     }
 
+    /// What a list or curve is dashed with.
+    pub(crate) fn pattern(&self, id: NodeId) -> Option<NameId> {
+        match self.slot(id)?.body {
+            Body::Vectors { pattern, .. } | Body::Curve { pattern, .. } => pattern,
+            _ => None,
+        }
+    }
+
+    pub(crate) fn set_pattern(&mut self, id: NodeId, with: Option<NameId>) {
+        let body = self.slot_mut(id).map(|slot| &mut slot.body);
+        if let Some(Body::Vectors { pattern, .. } | Body::Curve { pattern, .. }) = body {
+            *pattern = with;
+        }
+    }
+
     /// The full names of the labelled members of a structure, at any depth.
     pub(crate) fn labels(&self, id: NodeId) -> Vec<Name> {
         let mut found = Vec::new();
