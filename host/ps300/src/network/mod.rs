@@ -184,13 +184,17 @@ impl Network {
         })
     }
 
-    /// Every instance, in the order they were made.
+    /// Every instance, in the order they were made; those that send for nodes come last, since a program makes
+    /// them with its wires.
     pub(crate) fn instances(&self) -> Vec<Numbered<'_>> {
         let mut all: Vec<_> = (0..self.descriptions.len() as u32)
             .map(InstanceId)
             .filter_map(|id| self.instance(id).map(|instance| Numbered { id, instance }))
             .collect();
-        all.sort_by_key(|numbered| numbered.instance.description.serial);
+        all.sort_by_key(|numbered| {
+            let description = numbered.instance.description;
+            (description.role == Role::Node, description.serial)
+        });
         all
     }
 
