@@ -75,7 +75,7 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
     let mut scene = Scene::new(camera(&seen.view));
     let samples = seen.clip.as_ref().map(|clip| Samples::of(clip, look.tick_secs));
     let shown = seen.figure.as_ref();
-    let anything = shown.is_some() || samples.is_some() || !seen.display.strokes.is_empty();
+    let anything = shown.is_some() || samples.is_some() || !seen.display.is_empty();
     if look.floor && anything {
         let lowest = samples
             .as_ref()
