@@ -203,20 +203,25 @@ impl Patch {
             .framed
             .is_some_and(|(camera, view)| camera == self.camera && view != size);
         if change == Change::Arranged || outgrown || self.framed.is_none() {
-            self.frame(area);
+            self.frame(area, self.table.seating.extent());
         }
         self.traffic.see(look.picture.revision, &look.activity, now_secs);
         self.probes.see(&self.table.scene, look);
     }
 
-    /// Shows everything that is selected, or all.
-    fn frame(&mut self, area: Rect) {
+    /// What is selected, or all.
+    fn meant(&self) -> Option<Area> {
+        let areas = &self.table.seating.areas;
         let chosen = self
             .selection
             .boxes
             .iter()
-            .filter_map(|&node| self.table.seating.areas.get(node).copied());
-        let whole = chosen.reduce(Area::union).or_else(|| self.table.seating.extent());
+            .filter_map(|&node| areas.get(node).copied());
+        chosen.reduce(Area::union).or_else(|| self.table.seating.extent())
+    }
+
+    /// Shows a part of the plane.
+    fn frame(&mut self, area: Rect, whole: Option<Area>) {
         let view = Vec2::new(area.width(), area.height());
         if let Some(whole) = whole {
             self.camera.frame(whole, view);
@@ -320,7 +325,7 @@ impl Patch {
     fn perform(&mut self, act: Act, ui: &Ui, area: Rect, look: &Look, asked: &mut Asked) {
         match act {
             Act::Add => self.open_adder(ui, area, look, Want::Any, Tie::None, String::new()),
-            Act::Frame => self.frame(area),
+            Act::Frame => self.frame(area, self.meant()),
             Act::PatchUndo => asked.edits.push(NetworkEdit::Undo),
             Act::PatchRedo => asked.edits.push(NetworkEdit::Redo),
             Act::LayOut => self.table.lay_out(),
