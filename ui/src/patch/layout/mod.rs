@@ -1,8 +1,8 @@
 //! Where boxes go: what hands drive at the left, what is driven at the right, wires short and level.
 //!
-//! The method is that of layered drawing (Sugiyama, Tagawa, Toda 1981; Gansner and others 1993): [`cycles`] turns
-//! feedback around, [`layers`] makes columns, [`lanes`] gives long wires room, [`crossings`] orders the columns,
-//! [`coordinates`] makes wires level, [`parts`] sets unconnected networks beside each other. [`mod@place`] adds
+//! The method is that of layered drawing (Sugiyama, Tagawa, Toda 1981; Gansner and others 1993): `cycles` turns
+//! feedback around, `layers` makes columns, `lanes` gives long wires room, `crossings` orders the columns,
+//! `coordinates` makes wires level, `parts` sets unconnected networks beside each other. `place` adds
 //! a few boxes to a layout without moving the others. Everything is deterministic.
 
 mod coordinates;
