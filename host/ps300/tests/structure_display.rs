@@ -208,6 +208,21 @@ fn rendering_nodes_do_as_they_are_told_and_say_when() {
     assert_eq!(m.reports().len(), 1);
 }
 
+/// What a node sends could only be watched once something had been connected to it, and afterwards for ever.
+#[test]
+fn a_rendering_node_is_watched_whether_or_not_it_is_connected() {
+    let text = "f := VECTOR_LIST N=2 0,0 1,1; s := SURFACE_RENDERING THEN f; n := F:NOP;";
+    let mut machine = Machine::new();
+    assert_eq!(machine.load(text), []);
+    let listed = machine.instances().len();
+    assert!(machine.watch("s", 1), "it has an output");
+    assert!(!machine.watch("f", 1), "it has none");
+    assert_eq!(machine.load("SEND FIX(3) TO <1>s;"), []);
+    assert_eq!(machine.drain_watched().count(), 1);
+    assert_eq!(machine.load("CONNECT s<1>:<1>n; DISCONNECT s<1>:<1>n;"), []);
+    assert_eq!(machine.instances().len(), listed, "a node is not a function");
+}
+
 #[test]
 fn a_section_keeps_what_is_behind_its_plane_and_closes_it() {
     let mut m = machine(CUBE);

@@ -361,7 +361,7 @@ impl Machine {
     }
 
     fn set_watched(&mut self, name: &str, output: u8, on: bool) -> bool {
-        let from = self.outlet(name, output);
+        let from = self.outlet_made(name, output);
         if let Some(from) = from {
             self.network.watch(from, on);
         }
@@ -371,7 +371,7 @@ impl Machine {
     /// Withholds what an output would send, and counts it, until it is thawed; the rest of the network goes
     /// on. False if there is no such output.
     pub fn freeze(&mut self, name: &str, output: u8, on: bool) -> bool {
-        let from = self.outlet(name, output);
+        let from = self.outlet_made(name, output);
         if let Some(from) = from {
             self.network.freeze(from, on);
         }

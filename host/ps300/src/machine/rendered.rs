@@ -11,7 +11,7 @@ use super::{ExecuteError, Machine};
 use crate::intrinsic::{Confidence, InputSpec, OutputSpec, Spec};
 use crate::language::Name;
 use crate::names::Thing;
-use crate::network::{InstanceId, Role};
+use crate::network::{InstanceId, Outlet, Role};
 use crate::structure::NodeId;
 use crate::value::Kinds;
 
@@ -55,6 +55,13 @@ impl Machine {
         };
         self.senders.insert(node, sender);
         Ok(())
+    }
+
+    /// An output that is to be looked at, whether or not anything is connected to it yet.
+    pub(super) fn outlet_made(&mut self, name: &str, output: u8) -> Option<Outlet> {
+        // Without a sender there is no outlet, which is the answer.
+        let _ = self.make_sender(&Name::new(name));
+        self.outlet(name, output)
     }
 
     /// The instance that sends for what a name denotes.

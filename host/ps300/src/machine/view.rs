@@ -60,11 +60,13 @@ pub struct ConnectionView {
 }
 
 impl Machine {
-    /// Every device, variable and function, devices first, then in the order they were made.
+    /// Every device, variable and function, devices first, then in the order they were made. Nodes that send
+    /// are not among them.
     pub fn instances(&self) -> Vec<InstanceView<'_>> {
         self.network
             .instances()
             .into_iter()
+            .filter(|numbered| numbered.instance.role != Role::Node)
             .map(|numbered| self.instance_view(numbered))
             .collect()
     }
