@@ -47,7 +47,7 @@ impl Panel for Front {
         caption(ui, area, "front", &angles(seen));
         switches(ui, area, commands);
         remark(ui, area, seen);
-        if seen.figure.is_none() {
+        if seen.figure.is_none() && seen.display.is_empty() {
             let text = ("This show has no figure", style::words(theme::SIZE_TITLE));
             style::line(
                 ui.painter(),
