@@ -5,27 +5,7 @@ use std::fmt::Write;
 use ps300::{Kind, Kinds};
 
 /// The dial network of every PS 300 program (`docs/protocols/ps300.md`, "Canonical dial network").
-pub(super) const DIALS: &str = "
-    obj := BEGIN_STRUCTURE
-        to_pivot := TRANSLATE BY 1,2,3;
-        rotx := ROTATE IN X 0; roty := ROTATE IN Y 0; rotz := ROTATE IN Z 0;
-        size := SCALE BY 1;
-        from_pivot := TRANSLATE BY -1,-2,-3;
-        place := TRANSLATE BY 0,0,0;
-        VECTOR_LIST N=2 0,0,0 1,1,1;
-    END_STRUCTURE;
-    DISPLAY obj;
-    rx := F:DXROTATE; SEND 0 TO <2>rx; SEND 200 TO <3>rx; CONNECT DIALS<1>:<1>rx; CONNECT rx<1>:<1>obj.rotx;
-    ry := F:DYROTATE; SEND 0 TO <2>ry; SEND 200 TO <3>ry; CONNECT DIALS<2>:<1>ry; CONNECT ry<1>:<1>obj.roty;
-    rz := F:DZROTATE; SEND 0 TO <2>rz; SEND 200 TO <3>rz; CONNECT DIALS<3>:<1>rz; CONNECT rz<1>:<1>obj.rotz;
-    sc := F:DSCALE; SEND 1 TO <2>sc; SEND 0.2 TO <3>sc; SEND 1000 TO <4>sc; SEND 0.01 TO <5>sc;
-    CONNECT DIALS<4>:<1>sc; CONNECT sc<1>:<1>obj.size;
-    tx := F:XVECTOR; ty := F:YVECTOR; tz := F:ZVECTOR; tr := F:ACCUMULATE;
-    SEND V3D(0,0,0) TO <2>tr; SEND 100 TO <4>tr;
-    CONNECT DIALS<5>:<1>tx; CONNECT DIALS<6>:<1>ty; CONNECT DIALS<7>:<1>tz;
-    CONNECT tx<1>:<1>tr; CONNECT ty<1>:<1>tr; CONNECT tz<1>:<1>tr; CONNECT tr<1>:<1>obj.place;
-    coarse := F:MULC; SEND 50 TO <2>coarse; CONNECT DIALS<8>:<1>coarse; CONNECT coarse<1>:<1>sc;
-";
+pub(super) const DIALS: &str = include_str!("../../../../host/ps300/tests/data/dials.ps300");
 
 /// Only the object: what a hand begins with.
 pub(super) const OBJECT: &str =
