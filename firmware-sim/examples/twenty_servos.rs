@@ -4,7 +4,7 @@
 //! `time cargo run --release -p firmware-sim --example twenty_servos`
 
 use device_profiles::Profiles;
-use firmware_sim::dynamixel::{BusOptions, Unit};
+use firmware_sim::servo_bus::{BusOptions, Unit};
 use firmware_sim::{Firmware, ServoBus};
 
 /// Sync read of 16 bytes at Realtime Tick for ids 1 to 20.

@@ -7,19 +7,19 @@
 //! cannot agree with itself. It reads no clock, opens no port and keeps no thread: time comes in as `now_us`,
 //! and how the calls are cut up does not change a byte.
 //!
-//! Start at [`Firmware`], then [`dial_box`] (the smallest device), [`wacom_iv`], and [`dynamixel`], where
+//! Start at [`Firmware`], then [`dial_box`] (the smallest device), [`wacom_iv`], and [`servo_bus`], where
 //! `bus.rs` orders the events on the wire and `servo.rs` is one servo. [`script`] plays hands from a text.
 pub mod dial_box;
-pub mod dynamixel;
 mod firmware;
 pub mod hands;
 mod line;
 pub mod script;
+pub mod servo_bus;
 mod uart;
 pub mod wacom_iv;
 
 pub use dial_box::SgiDialBox;
-pub use dynamixel::{Fault, ServoBus};
 pub use firmware::Firmware;
 pub use script::Script;
+pub use servo_bus::{Fault, ServoBus};
 pub use wacom_iv::WacomIv;

@@ -220,7 +220,7 @@ fn garbage_from_a_host_leaves_simulated_devices_well() {
     use device::VirtualClock;
     use dialrig_tests::simulated::{Line, bus_of};
     use firmware_sim::dial_box::Options;
-    use firmware_sim::dynamixel::BusOptions;
+    use firmware_sim::servo_bus::BusOptions;
     use std::sync::Arc;
     let mut chance = Chance(13);
     let clock = VirtualClock::new();

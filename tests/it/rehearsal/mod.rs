@@ -14,7 +14,7 @@ use device::servo::Member;
 use device::{Clock, Instant, Transport, VirtualClock};
 use device_profiles::{Profiles, PuppetProfile};
 use dialrig_tests::simulated::Line;
-use firmware_sim::dynamixel::{BusOptions, Sag, Unit};
+use firmware_sim::servo_bus::{BusOptions, Sag, Unit};
 use firmware_sim::{Fault, ServoBus};
 use motion::JointClip;
 use player::{Order, Player, PlayerConfig, Puppet, Report, State};
@@ -214,7 +214,7 @@ impl Rehearsal {
                 let counts = hung.line.with(|bus, _| {
                     let shaft = bus
                         .servo(*id)
-                        .map(firmware_sim::dynamixel::Servo::true_position_rad);
+                        .map(firmware_sim::servo_bus::Servo::true_position_rad);
                     shaft.unwrap_or(0.0) / bounds.rad_per_count + bounds.centre
                 });
                 let [low, high] = bounds.range;

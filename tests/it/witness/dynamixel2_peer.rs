@@ -8,7 +8,7 @@ use dialrig_tests::simulated::Served;
 use dynamixel2::instructions::{BulkReadData, SyncWriteData};
 use dynamixel2::{Bus, ReadError, TransferError};
 use firmware_sim::ServoBus;
-use firmware_sim::dynamixel::{Absent, BusOptions};
+use firmware_sim::servo_bus::{Absent, BusOptions};
 
 type Peer = Bus<Vec<u8>, Vec<u8>>;
 

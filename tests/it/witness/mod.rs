@@ -12,7 +12,7 @@ mod tablet;
 
 use device::{Clock, MonotonicClock};
 use dialrig_tests::simulated::Served;
-use firmware_sim::dynamixel::{BusOptions, Unit};
+use firmware_sim::servo_bus::{BusOptions, Unit};
 use firmware_sim::{Fault, ServoBus};
 use std::time::Duration;
 

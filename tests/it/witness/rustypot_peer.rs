@@ -6,7 +6,7 @@ use super::{
 };
 use dialrig_tests::simulated::Served;
 use firmware_sim::ServoBus;
-use firmware_sim::dynamixel::{Absent, BusOptions};
+use firmware_sim::servo_bus::{Absent, BusOptions};
 use rustypot::{DynamixelProtocolHandler, SyncReadError};
 use serialport::SerialPort;
 use std::time::Duration;

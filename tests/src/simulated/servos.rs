@@ -3,7 +3,7 @@
 use device::servo::{Limits, Member};
 use device_profiles::{Profiles, ServoProfile};
 use firmware_sim::ServoBus;
-use firmware_sim::dynamixel::{BusOptions, Unit};
+use firmware_sim::servo_bus::{BusOptions, Unit};
 
 /// Present Position of the X series; Goal Position is 116. Source: their control tables.
 pub const POSITION: u16 = 132;

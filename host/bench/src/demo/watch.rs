@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use firmware_sim::dynamixel::StatusSent;
+use firmware_sim::servo_bus::StatusSent;
 use rig::{PuppetView, Snapshot};
 
 use super::report::{Limits, ServoReport, ServoRow};

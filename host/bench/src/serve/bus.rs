@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use device_profiles::{ProfileError, Profiles};
-use firmware_sim::dynamixel::{Adapter, AddError, BusOptions, Unit, WireTime};
+use firmware_sim::servo_bus::{Adapter, AddError, BusOptions, Unit, WireTime};
 use firmware_sim::{Fault, ServoBus};
 
 use super::{ServeError, Served};
@@ -145,7 +145,7 @@ impl Eeprom {
         let ids: Vec<u8> = bus
             .servos()
             .iter()
-            .map(firmware_sim::dynamixel::Servo::id)
+            .map(firmware_sim::servo_bus::Servo::id)
             .collect();
         let mut eeprom = Self {
             folder,

@@ -15,8 +15,8 @@ pub use served::Served;
 
 // What a served device is told with and tells, for programs that must not know the firmware itself.
 pub use firmware_sim::dial_box::Output;
-pub use firmware_sim::dynamixel::WireTime;
 pub use firmware_sim::script::ScriptError;
+pub use firmware_sim::servo_bus::WireTime;
 pub use firmware_sim::{Fault, Script};
 
 use std::io;

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use device::clock::Clock;
 use device_profiles::{KnobsProfile, ProfileError, Profiles, PuppetProfile, TabletProfile};
 use firmware_sim::dial_box::Options;
-use firmware_sim::dynamixel::{AddError, BusOptions, Sag, Unit};
+use firmware_sim::servo_bus::{AddError, BusOptions, Sag, Unit};
 use firmware_sim::wacom_iv::Model;
 use firmware_sim::{ServoBus, SgiDialBox, WacomIv};
 

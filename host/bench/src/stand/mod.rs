@@ -16,8 +16,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use device::clock::Clock;
 use firmware_sim::Fault;
-use firmware_sim::dynamixel::FaultError;
 use firmware_sim::hands::Touch;
+use firmware_sim::servo_bus::FaultError;
 
 pub use build::{PuppetPlan, StandBuilder, StandError};
 pub use ports::SimPorts;

@@ -6,8 +6,8 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use firmware_sim::dial_box::Output;
-use firmware_sim::dynamixel::StatusSent;
 use firmware_sim::hands::{Hands, Touch};
+use firmware_sim::servo_bus::StatusSent;
 use firmware_sim::{Firmware, ServoBus, SgiDialBox, WacomIv};
 
 use super::surface::Surface;

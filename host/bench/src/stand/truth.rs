@@ -1,7 +1,7 @@
 //! What a test may know about a simulated joint that no byte on the wire tells.
 
 use device_profiles::{PuppetJoint, ServoProfile};
-use firmware_sim::dynamixel::Servo;
+use firmware_sim::servo_bus::Servo;
 
 /// How a joint's angle and its servo's shaft belong together, and what the profile allows.
 #[derive(Clone, Debug)]

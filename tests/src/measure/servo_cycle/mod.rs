@@ -17,7 +17,7 @@ use super::{Row, Subject, Tell, median, repeated};
 use crate::simulated::{Line, Served, bus_of};
 use device::{Clock, MonotonicClock};
 use firmware_sim::ServoBus;
-use firmware_sim::dynamixel::BusOptions;
+use firmware_sim::servo_bus::BusOptions;
 use std::num::NonZeroU64;
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! DYNAMIXEL servos with protocol 2.0 on one half-duplex wire.
+//! Servos on one half-duplex wire.
 //!
 //! `bus` orders what happens on the wire and hands instructions to servos; `wire` carries bytes at their
 //! pace; `receiver` finds packets; `packet` and `crc` are the framing; `servo` is one servo, made of its
