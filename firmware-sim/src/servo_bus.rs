@@ -2,7 +2,7 @@
 //!
 //! `bus` orders what happens on the wire and hands instructions to servos; `wire` carries bytes at their
 //! pace; `receiver` finds packets; `packet` and `crc` are the framing; `servo` is one servo, made of its
-//! `table`, its `motion` along a `trajectory`, its `plant` and the protection of its `hardware`; `execute` and
+//! `table`, its `goal`, its `motion` along a `trajectory`, its `plant` and the protection of its `hardware`; `execute` and
 //! `write` are what an instruction does to it; `fault` is what may go wrong. Source: `docs/protocols/dynamixel2.md` (the maker's protocol page and control tables).
 
 mod bus;
@@ -12,6 +12,7 @@ mod dispatch;
 mod execute;
 mod fault;
 mod fault_run;
+mod goal;
 mod hardware;
 mod motion;
 mod packet;

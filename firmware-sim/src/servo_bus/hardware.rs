@@ -74,12 +74,12 @@ impl Servo {
             | bit(hot, OVERHEATING)
             | bit(self.strained_steps >= OVERLOAD_STEPS, OVERLOAD);
         let shutdown = self.table.get(Reg::Shutdown) as u8;
-        let old = self.table.get(Reg::HardwareErrorStatus) as u8;
+        let old = self.alarms();
         // What Shutdown names is latched until a reboot; the rest passes with its cause.
         let latched = old & shutdown;
         let status = latched | now;
         if status != old {
-            self.table.set(Reg::HardwareErrorStatus, i64::from(status));
+            self.set_alarms(status);
         }
         if status & shutdown != 0 && !self.shut_down {
             self.shut_down = true;
@@ -96,8 +96,8 @@ impl Servo {
     /// The error bits set by a test rather than by the plant.
     pub(super) fn raise(&mut self, at_ns: u64, bits: u8) {
         self.advance(at_ns);
-        let status = self.table.get(Reg::HardwareErrorStatus) as u8 | bits;
-        self.table.set(Reg::HardwareErrorStatus, i64::from(status));
+        let status = self.alarms() | bits;
+        self.set_alarms(status);
         if status & self.table.get(Reg::Shutdown) as u8 != 0 && !self.shut_down {
             self.shut_down = true;
             self.counters.shutdowns += 1;

@@ -49,6 +49,7 @@ pub struct Servo {
     pub(super) sag: Option<Sag>,
     pub(super) supply: Supply,
     pub(super) silent: bool,
+    alarms: u8,
     pub(super) booting_until_ns: u64,
     booted_ns: u64,
     /// Latched until reboot: Shutdown took the torque away.
@@ -81,6 +82,7 @@ impl Servo {
             last_heard_ns: 0,
             sag: None,
             silent: false,
+            alarms: 0,
             booting_until_ns: 0,
             booted_ns: 0,
             shut_down: false,
@@ -142,7 +144,7 @@ impl Servo {
         self.advance(at_ns);
         self.counters.reboots += 1;
         self.table.set(Reg::TorqueEnable, 0);
-        self.table.set(Reg::HardwareErrorStatus, 0);
+        self.set_alarms(0);
         self.booting_until_ns = at_ns + BOOT_NS;
         self.start_ram(at_ns);
     }
@@ -201,6 +203,17 @@ impl Servo {
 
     pub(super) fn watchdog_has_tripped(&self) -> bool {
         self.table.get(Reg::BusWatchdog) == WATCHDOG_TRIPPED
+    }
+
+    /// What is wrong with it, in bits that are the same in every protocol: 0 voltage, 2 heat, 5 overload.
+    pub(super) fn alarms(&self) -> u8 {
+        self.alarms
+    }
+
+    /// Also shown in Hardware Error Status, where the model has it.
+    pub(super) fn set_alarms(&mut self, bits: u8) {
+        self.alarms = bits;
+        self.table.set(Reg::HardwareErrorStatus, i64::from(bits));
     }
 
     /// Milliseconds since start by the servo's own clock.

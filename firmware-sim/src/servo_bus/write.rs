@@ -4,7 +4,7 @@
 //! several apply is not documented; here bytes are judged in the order of their addresses: access, then
 //! length, then value.
 
-use super::motion::mode;
+use super::goal::mode;
 use super::packet::error;
 use super::servo::Servo;
 use super::table::{Reg, Table, load};
