@@ -9,6 +9,7 @@
 
 mod error;
 mod knobs;
+mod policy;
 mod profiles;
 mod puppet;
 mod read;
@@ -18,9 +19,10 @@ mod tablet;
 
 pub use error::ProfileError;
 pub use knobs::{KnobsProfile, Labels};
+pub use policy::{Policy, Reaction};
 pub use profiles::{Kind, Profiles};
-pub use puppet::{PuppetBus, PuppetGroup, PuppetJoint, PuppetProfile};
+pub use puppet::{Coupling, PuppetBus, PuppetGroup, PuppetJoint, PuppetProfile};
 pub use read::read_file;
-pub use servo::{Access, Area, Register, ServoProfile, ServoProtocol, Unit};
+pub use servo::{Access, Area, Motor, Register, Role, ServoProfile, ServoProtocol, Unit, Variant, WordOrder};
 pub use status::Status;
 pub use tablet::{Identify, SerialTool, Surface, TabletProfile, Tool};

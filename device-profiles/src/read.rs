@@ -42,6 +42,10 @@ impl Flaw {
         }
     }
 
+    pub(crate) fn message(&self) -> &str {
+        &self.message
+    }
+
     fn offset(&self, text: &str) -> usize {
         let mut lines = text.split_inclusive('\n').scan(0, |at, line| {
             let start = *at;

@@ -258,7 +258,7 @@ impl Facts {
                 .map_or(1.0, |si| si / rad_per_count)
         };
         Self {
-            counts_per_turn: f64::from(profile.counts_per_turn),
+            counts_per_turn: profile.counts_per_turn,
             centre: f64::from(profile.centre_counts),
             rad_per_count,
             speed_unit: unit("Present Velocity"),

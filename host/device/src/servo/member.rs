@@ -27,9 +27,9 @@ pub enum MemberError {
         /// What is wrong.
         source: RegisterError,
     },
-    /// The joint's range would leave the servo's single turn, where counts wrap.
+    /// The joint's range would leave the servo's own, beyond which it stops or its counts wrap.
     #[error(
-        "joint \"{joint}\": its range of {min_counts} to {max_counts} counts leaves the servo's turn of 0 to \
+        "joint \"{joint}\": its range of {min_counts} to {max_counts} counts leaves the servo's range of {first_counts} to \
          {last_counts}: mount the horn so that the range lies inside, and set zero_counts accordingly"
     )]
     Turn {
@@ -39,7 +39,9 @@ pub enum MemberError {
         min_counts: i64,
         /// Counts at the range's upper end.
         max_counts: i64,
-        /// Highest count of the turn.
+        /// Lowest count the servo can go to.
+        first_counts: i64,
+        /// Highest count the servo can go to.
         last_counts: i64,
     },
     /// Anything but one or minus one.
@@ -138,12 +140,13 @@ impl Member {
             fields,
         };
         let [min_counts, max_counts] = member.range_counts();
-        let last_counts = i64::from(member.servo.counts_per_turn) - 1;
-        if min_counts < 0 || max_counts > last_counts {
+        let [first_counts, last_counts] = member.servo.position_counts;
+        if min_counts < first_counts || max_counts > last_counts {
             return Err(MemberError::Turn {
                 joint: member.joint,
                 min_counts,
                 max_counts,
+                first_counts,
                 last_counts,
             });
         }
@@ -203,7 +206,8 @@ impl Member {
     /// The nearest count inside the servo's turn; the joint's angle must be finite.
     pub fn position_counts(&self, rad: f64) -> i64 {
         let counts = f64::from(self.zero_counts) + self.sign * rad / self.servo.rad_per_count();
-        (counts.round() as i64).clamp(0, i64::from(self.servo.counts_per_turn) - 1)
+        let [first, last] = self.servo.position_counts;
+        (counts.round() as i64).clamp(first, last)
     }
 
     /// Counts at the ends of the joint's range, the lower first.
@@ -227,7 +231,7 @@ impl Member {
         let missing = i64::MIN;
         let raw = self.fields.position.get(block, address).ok_or(missing)?;
         // A joint turned by hand may leave the turn a little; further than a turn is not a reading.
-        let turn = i64::from(self.servo.counts_per_turn);
+        let turn = self.servo.counts_per_turn.ceil() as i64;
         if raw <= -turn || raw >= 2 * turn {
             return Err(raw);
         }

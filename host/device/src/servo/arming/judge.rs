@@ -205,8 +205,7 @@ impl Bus {
                 late.push((*at, Why::Late));
                 continue;
             };
-            let turn = i64::from(slot.member.servo().counts_per_turn);
-            let [min, max] = slot.accepts.unwrap_or([0, turn - 1]);
+            let [min, max] = slot.accepts.unwrap_or(slot.member.servo().position_counts);
             let counts = reading.position_counts;
             if counts < min || counts > max {
                 refused.push((*at, Why::Outside { counts, min, max }));
