@@ -112,65 +112,115 @@ fn wrong_shapes_are_refused_at_their_place() {
 }
 
 #[test]
-fn contradictions_are_refused_at_their_place() {
+fn contradictions_in_puppets_are_refused_at_their_place() {
     let rows = [
         (
-            PUPPET,
             "id = 2\n",
             "id = 1\n",
             "id 1 is taken on bus \"upper\"",
             "[[group.joint]]",
         ),
         (
-            PUPPET,
             "parent = \"rua\"",
             "parent = \"rfa\"",
             "hangs from \"rfa\"",
             "[[group]]",
         ),
         (
-            PUPPET,
             "max_rad = 2.5",
             "max_rad = -2.5",
             "min_rad must lie below",
             "[[group.joint]]",
         ),
         (
-            PUPPET,
             "axis = [1.0, 0.0, 0.0]",
             "axis = [1.0, 1.0, 0.0]",
             "axis must be a unit",
             "[[group.joint]]",
         ),
         (
-            PUPPET,
             "sign = 1",
             "sign = 2",
             "sign must be 1 or -1, found 2",
             "[[group.joint]]",
         ),
         (
-            SERVO,
+            "heartbeat_ms = 500",
+            "heartbeat_ms = 5000",
+            "heartbeat_ms must be 20 to 2540, found 5000",
+            "heartbeat_ms",
+        ),
+        (
+            "hot_c = 60.0",
+            "hot_c = 140.0",
+            "hot_c must be 30 to 100, found 140",
+            "hot_c",
+        ),
+        (
+            "on_lost_host = \"hold\"",
+            "on_lost_host = \"back-off\"",
+            "without a host nobody moves",
+            "on_lost_host",
+        ),
+    ];
+    for (at, (from, to, message, place)) in rows.into_iter().enumerate() {
+        check_refused(
+            &format!("puppets-{at}"),
+            &PUPPET.replace(from, to),
+            message,
+            place,
+        );
+    }
+}
+
+#[test]
+fn contradictions_in_servos_are_refused_at_their_place() {
+    let rows = [
+        (
             "address = 132",
             "address = 130",
             "overlaps the row before it",
             "name = \"Pr",
         ),
         (
-            SERVO,
             "name = \"PWM Limit\"",
             "name = \"PWM Bound\"",
             "bounded by \"PWM Limit\"",
             "name = \"Goal PWM",
         ),
+        (
+            "role = \"drive-mode\"",
+            "role = \"id\"",
+            "has role id, and so has \"Drive Mode\"",
+            "name = \"ID",
+        ),
+        (
+            "signed = true, init = 0, min = -1",
+            "signed = true, sign_bit = 31, init = 0, min = -1",
+            "both signed (two's complement) and sign_bit",
+            "name = \"Homing",
+        ),
+        (
+            "signed = true, init = 0, min = -1",
+            "sign_bit = 32, init = 0, min = -1",
+            "sign_bit in 1 to 31, found 32",
+            "name = \"Homing",
+        ),
+        (
+            "position_counts = [0, 4095]",
+            "position_counts = [4095, 0]",
+            "must rise and have centre_counts between",
+            "position_counts",
+        ),
+        (
+            "4000000]\n",
+            "4000000]\nbaud_codes = [1]\n",
+            "one value for each of bauds, found 1 for 7",
+            "baud_codes",
+        ),
     ];
-    for (at, (text, from, to, message, place)) in rows.into_iter().enumerate() {
-        check_refused(
-            &format!("contradiction-{at}"),
-            &text.replace(from, to),
-            message,
-            place,
-        );
+    for (at, (from, to, message, place)) in rows.into_iter().enumerate() {
+        check_refused(&format!("servos-{at}"), &SERVO.replace(from, to), message, place);
     }
 }
 
@@ -191,4 +241,86 @@ fn a_file_of_no_kind_is_told_which_kinds_there_are() {
         "{}",
         errors[0]
     );
+}
+
+/// What is wrong with a piece at the end of an otherwise right file, and where.
+#[test]
+fn wrong_variants_and_couplings_are_refused_at_their_place() {
+    let rows = [
+        (
+            SERVO,
+            "[[variant]]\nfirmware = [52, 38]\n",
+            "must be [first, last], found [52, 38]",
+        ),
+        (
+            SERVO,
+            "[[variant]]\nfirmware = [38, 60]\n",
+            "whose table `registers` gives",
+        ),
+        (
+            SERVO,
+            "[[variant]]\nfirmware = [38, 52]\nremoved = [\"LEDs\"]\n",
+            "removes \"LEDs\", which the table does not have",
+        ),
+        (
+            SERVO,
+            "[[variant]]\nfirmware = [38, 52]\nregisters = [\n    { address = 117, size = 1, name = \"Odd\", area = \"ram\", \
+             access = \"r\" },\n]\n",
+            "with firmware [38, 52]: \"Odd\" at 117 overlaps",
+        ),
+        (
+            PUPPET,
+            "[[coupling]]\njoint = \"left_elbow\"\nfollows = \"left_elbow\"\nratio = 1.0\n",
+            "which follows a joint itself",
+        ),
+        (
+            PUPPET,
+            "[[coupling]]\njoint = \"left_elbow\"\nfollows = \"tail\"\nratio = 1.0\n",
+            "names joint \"tail\", which the puppet does not have",
+        ),
+        (
+            PUPPET,
+            "[[coupling]]\njoint = \"left_elbow\"\nfollows = \"right_elbow\"\nratio = -1.0\n",
+            "would be led to between -2.5 and 0.05 rad",
+        ),
+        (
+            PUPPET,
+            "[[coupling]]\njoint = \"left_elbow\"\nfollows = \"right_elbow\"\nratio = 0.0\n",
+            "must have a ratio other than 0",
+        ),
+    ];
+    for (at, (text, piece, message)) in rows.into_iter().enumerate() {
+        let header = piece.lines().next().unwrap();
+        check_refused(
+            &format!("piece-{at}"),
+            &format!("{text}\n{piece}"),
+            message,
+            header,
+        );
+    }
+}
+
+#[test]
+fn right_variants_and_couplings_are_taken() {
+    let coupled = format!(
+        "{PUPPET}\n[[coupling]]\njoint = \"left_elbow\"\nfollows = \"right_elbow\"\nratio = 0.5\noffset_rad = 0.1\n"
+    );
+    let all = read_own("coupled", &coupled).unwrap();
+    let coupling = all.puppet("own").unwrap().coupling("left_elbow").unwrap();
+    assert!((coupling.angle_rad(1.0) - 0.6).abs() < 1e-12);
+
+    let older = format!(
+        "{SERVO}\n[[variant]]\nfirmware = [1, 10]\nremoved = [\"Backup Ready\"]\nregisters = [\n    {{ address = 147, \
+         size = 1, name = \"Spare\", area = \"ram\", access = \"r\" }},\n]\n"
+    );
+    let all = read_own("older", &older).unwrap();
+    let servo = all.servo("own").unwrap();
+    let names = |firmware| {
+        let own = servo.at_firmware(firmware);
+        let row = own.register_at(147).unwrap().name.clone();
+        (own.firmware, row, own.registers.len())
+    };
+    let rows = servo.registers.len();
+    assert_eq!(names(10), (10, "Spare".to_owned(), rows));
+    assert_eq!(names(11), (53, "Backup Ready".to_owned(), rows));
 }
