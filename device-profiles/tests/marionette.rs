@@ -297,7 +297,7 @@ fn limits_lie_inside_what_the_servos_can_do() {
         let counts_per_rad = 1.0 / servo.rad_per_count();
         for q in [joint.min_rad, joint.max_rad, 0.0] {
             let counts = f64::from(joint.zero_counts) + f64::from(joint.sign) * q * counts_per_rad;
-            let last = f64::from(servo.counts_per_turn) - 1.0;
+            let last = servo.position_counts[1] as f64;
             assert!(
                 (0.0..=last).contains(&counts),
                 "{}: {q} rad is count {counts}",
