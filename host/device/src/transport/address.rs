@@ -80,9 +80,9 @@ pub fn open(address: &Address, baud: u32) -> Result<Box<dyn Transport>, Transpor
         Address::Path(path) => Ok(Box::new(serial::open(path, baud)?)),
         Address::Tcp { host, port } => Ok(Box::new(tcp::connect(host, *port)?)),
         Address::Usb(wanted) => {
-            let found = ports::list()
-                .into_iter()
-                .find(|p| p.usb.as_ref().is_some_and(|u| u.serial == *wanted));
+            // The path may be another each time it is plugged in, so it is looked up each time it is opened.
+            let ports = ports::list();
+            let found = ports::of_usb_serial(&ports, wanted);
             let found = found.ok_or_else(|| TransportError::NotFound {
                 address: address.to_string(),
             })?;

@@ -2,7 +2,7 @@
 
 use crate::clock::{Clock, Instant};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::fd::{AsFd, BorrowedFd};
+use rustix::fd::BorrowedFd;
 use rustix::io::Errno;
 use std::io;
 use std::time::Duration;
@@ -76,12 +76,15 @@ pub(super) fn wait(fd: BorrowedFd<'_>, clock: &dyn Clock, until: Instant) {
 }
 
 fn poll_for(fd: BorrowedFd<'_>, what: PollFlags, limit: Duration) -> bool {
-    let owned = fd.as_fd();
-    let mut watched = [PollFd::from_borrowed_fd(owned, what)];
+    poll_all(&mut [PollFd::from_borrowed_fd(fd, what)], limit)
+}
+
+/// Whether one of several became ready within `limit`.
+pub(super) fn poll_all(watched: &mut [PollFd<'_>], limit: Duration) -> bool {
     let limit = Timespec {
         tv_sec: limit.as_secs().try_into().unwrap_or(i64::MAX),
         tv_nsec: limit.subsec_nanos().into(),
     };
     // An interrupted poll reads as "nothing yet": every caller looks again.
-    poll(&mut watched, Some(&limit)).is_ok_and(|ready| ready > 0)
+    poll(watched, Some(&limit)).is_ok_and(|ready| ready > 0)
 }

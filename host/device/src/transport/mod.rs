@@ -8,11 +8,14 @@ pub mod ports;
 pub mod pty;
 pub mod serial;
 pub mod tcp;
+mod waiting;
 
 pub use address::{Address, open};
 pub use error::TransportError;
+pub use waiting::{Awaited, LINES_MAX, wait_any};
 
 use crate::clock::{Clock, Instant};
+use rustix::fd::BorrowedFd;
 use std::time::Duration;
 
 /// What one [`Transport::read`] returns.
@@ -56,6 +59,12 @@ pub trait Transport: Send {
     fn ready(&mut self) -> bool {
         false
     }
+
+    /// What the system can wait for together with others ([`wait_any`]); none where bytes come from inside the
+    /// program.
+    fn descriptor(&self) -> Option<BorrowedFd<'_>> {
+        None
+    }
 }
 
 impl Transport for Box<dyn Transport> {
@@ -81,5 +90,9 @@ impl Transport for Box<dyn Transport> {
 
     fn ready(&mut self) -> bool {
         (**self).ready()
+    }
+
+    fn descriptor(&self) -> Option<BorrowedFd<'_>> {
+        (**self).descriptor()
     }
 }

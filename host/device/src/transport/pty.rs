@@ -3,7 +3,7 @@
 
 use super::{Boundary, Transport, TransportError, descriptor};
 use crate::clock::{Clock, Instant};
-use rustix::fd::{AsFd, OwnedFd};
+use rustix::fd::{AsFd, BorrowedFd, OwnedFd};
 use rustix::fs::{Mode, OFlags};
 use rustix::io::Errno;
 use rustix::pty::OpenptFlags;
@@ -122,6 +122,10 @@ impl Transport for Pty {
 
     fn ready(&mut self) -> bool {
         descriptor::ready(self.far.as_fd())
+    }
+
+    fn descriptor(&self) -> Option<BorrowedFd<'_>> {
+        Some(self.far.as_fd())
     }
 }
 

@@ -8,7 +8,7 @@
 use super::error::SERIAL_HINT;
 use super::{Boundary, Transport, TransportError, descriptor};
 use crate::clock::{Clock, Instant};
-use rustix::fd::{AsFd, OwnedFd};
+use rustix::fd::{AsFd, BorrowedFd, OwnedFd};
 use rustix::fs::{FlockOperation, Mode, OFlags};
 use rustix::io::Errno;
 use rustix::termios::{ControlModes, OptionalActions, QueueSelector, Termios};
@@ -112,6 +112,10 @@ impl Transport for SerialTransport {
 
     fn ready(&mut self) -> bool {
         descriptor::ready(self.fd.as_fd())
+    }
+
+    fn descriptor(&self) -> Option<BorrowedFd<'_>> {
+        Some(self.fd.as_fd())
     }
 }
 

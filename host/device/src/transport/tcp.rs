@@ -2,7 +2,7 @@
 
 use super::{Boundary, Transport, TransportError, descriptor};
 use crate::clock::{Clock, Instant};
-use rustix::fd::AsFd;
+use rustix::fd::{AsFd, BorrowedFd};
 use std::io;
 use std::net::{TcpListener, TcpStream, ToSocketAddrs};
 use std::time::Duration;
@@ -89,5 +89,9 @@ impl Transport for TcpTransport {
 
     fn ready(&mut self) -> bool {
         descriptor::ready(self.stream.as_fd())
+    }
+
+    fn descriptor(&self) -> Option<BorrowedFd<'_>> {
+        Some(self.stream.as_fd())
     }
 }
