@@ -277,8 +277,7 @@ impl Maintenance {
         let Some(row) = servo.register(name) else {
             return Ok(());
         };
-        let bytes = encode_checked(row, raw)?;
-        let bytes = bytes.get(..usize::from(field.size)).unwrap_or_default();
+        let bytes = encode_checked(servo, row, raw)?;
         if field.eeprom && self.read_register(servo, id, name, clock)? == raw {
             return Ok(());
         }
@@ -286,7 +285,7 @@ impl Maintenance {
             self.release(clock)?;
         }
         self.ask(id, 0, clock, &|out| {
-            dynamixel2::write(out, id, field.address, bytes)
+            dynamixel2::write(out, id, field.address, bytes.as_ref())
         })?;
         if name == "ID" || name == "Baud Rate" {
             return Ok(());
