@@ -98,6 +98,15 @@ pub enum Role {
     PositionD,
 }
 
+impl std::str::FromStr for Role {
+    type Err = serde::de::value::Error;
+
+    /// The word of the files.
+    fn from_str(word: &str) -> Result<Self, Self::Err> {
+        Self::deserialize(serde::de::IntoDeserializer::into_deserializer(word))
+    }
+}
+
 impl fmt::Display for Role {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // The word of the files: a formatter is serde's serializer of unit variants.

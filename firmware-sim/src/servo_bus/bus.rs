@@ -4,12 +4,12 @@
 //! does not depend on how the calls are cut up.
 
 use super::chain::{Absent, Chain};
-use super::fault::{Fault, FaultKind};
+use super::fault::BusFault;
 use super::fault_run::Running;
 use super::packet::ID_MAX;
 use super::receiver::{BadCrc, InnerHeader, Receiver};
 use super::servo::Servo;
-use super::unit::{Sag, Unit};
+use super::unit::Unit;
 use super::wire::{Adapter, Wire, WireTime};
 use crate::firmware::Firmware;
 use device_profiles::ServoProfile;
@@ -102,7 +102,8 @@ pub struct ServoBus {
     pub(super) answer_params: Vec<u8>,
     pub(super) one_answer: Vec<u8>,
     pub(super) reboots: Vec<usize>,
-    wire: Wire,
+    pub(super) wire: Wire,
+    pub(super) ohms: f64,
     reached_ns: u64,
     merged: Vec<u8>,
     merged_delay_ns: Option<u64>,
@@ -123,6 +124,7 @@ impl ServoBus {
             answer_params: Vec::new(),
             one_answer: Vec::new(),
             reboots: Vec::new(),
+            ohms: 0.0,
             reached_ns: 0,
             merged: Vec::new(),
             merged_delay_ns: None,
@@ -146,6 +148,9 @@ impl ServoBus {
         }
         let mut servo = Servo::new(profile, unit, self.options.baud);
         servo.advance(self.reached_ns);
+        servo
+            .plant
+            .seed(self.options.seed.wrapping_add(self.servos.len() as u64));
         self.servos.push(servo);
         Ok(())
     }
@@ -165,40 +170,6 @@ impl ServoBus {
         &self.servos
     }
 
-    /// Brings in `fault`; its times count from `now_us`.
-    pub fn inject(&mut self, now_us: u64, fault: &Fault) {
-        let now_ns = self.catch_up(now_us);
-        self.faults.push(Running::new(*fault, now_ns));
-        self.advance(now_ns);
-    }
-
-    /// Ends every fault that lasts or is still to come. What it has done stays done.
-    pub fn mend(&mut self, now_us: u64) {
-        let now_ns = self.catch_up(now_us);
-        self.end_all_faults(now_ns);
-    }
-
-    /// A hand turns the horn of servo `id` by `rad`. False: there is no such servo.
-    pub fn push(&mut self, now_us: u64, id: u8, rad: f64) -> bool {
-        self.catch_up(now_us);
-        let Some(servo) = self.servos.iter_mut().find(|servo| servo.id() == id) else {
-            return false;
-        };
-        let powered = servo.torque_is_on();
-        servo.plant.push(rad / servo.facts.rad_per_count, powered);
-        true
-    }
-
-    /// Gravity on servo `id` while its torque is off. False: there is no such servo.
-    pub fn set_sag(&mut self, now_us: u64, id: u8, sag: Option<Sag>) -> bool {
-        self.catch_up(now_us);
-        let Some(servo) = self.servos.iter_mut().find(|servo| servo.id() == id) else {
-            return false;
-        };
-        servo.sag = sag;
-        true
-    }
-
     /// The last answers, oldest first.
     pub fn statuses(&self) -> impl Iterator<Item = &StatusSent> {
         self.statuses.iter()
@@ -214,14 +185,14 @@ impl ServoBus {
         self.receiver.dropped
     }
 
-    fn catch_up(&mut self, now_us: u64) -> u64 {
+    pub(super) fn catch_up(&mut self, now_us: u64) -> u64 {
         let now_ns = (now_us * 1000).max(self.reached_ns);
         self.advance(now_ns);
         now_ns
     }
 
     /// Lets everything happen, in its order, that happens up to `to_ns`.
-    fn advance(&mut self, to_ns: u64) {
+    pub(super) fn advance(&mut self, to_ns: u64) {
         loop {
             let events = [
                 self.next_fault_ns(),
@@ -242,7 +213,7 @@ impl ServoBus {
                 } else {
                     0
                 };
-                let arrived = self.through_noise(byte.value);
+                let arrived = self.through_noise(None, byte.value);
                 if let Some(heard) = self.receiver.push(start_ns, byte.end_ns, arrived) {
                     self.dispatch(byte.end_ns, heard);
                     self.receiver.clear();
@@ -250,9 +221,7 @@ impl ServoBus {
             }
         }
         self.reached_ns = self.reached_ns.max(to_ns);
-        for servo in &mut self.servos {
-            servo.advance(to_ns);
-        }
+        self.advance_servos(to_ns);
     }
 
     /// Nobody has answered yet.
@@ -290,14 +259,14 @@ impl ServoBus {
         } else {
             0
         };
-        let start_ns = sampled_ns + delay_ns + self.lateness_ns();
-        let lost = self.loses_answer();
+        let start_ns = sampled_ns + delay_ns + self.lateness_ns(id);
+        let lost = self.loses_answer(id);
         let end_ns = if lost {
             start_ns + self.wire.byte_ns * self.merged.len() as u64
         } else {
             let mut bytes = std::mem::take(&mut self.merged);
             for byte in &mut bytes {
-                *byte = self.through_noise(*byte);
+                *byte = self.through_noise(Some(id), *byte);
             }
             let end_ns = self.wire.servos_send(start_ns, &bytes);
             self.merged = bytes;
@@ -329,7 +298,7 @@ fn byte_ns(wire: WireTime, baud: u32) -> u64 {
 impl Firmware for ServoBus {
     fn receive(&mut self, now_us: u64, bytes: &[u8]) {
         let now_ns = self.catch_up(now_us);
-        let echo = self.options.echo || self.suffers(FaultKind::Echo);
+        let echo = self.options.echo || self.suffers_until_ns(BusFault::Echo).is_some();
         for &byte in bytes {
             self.wire.host_sends(now_ns, byte, echo);
         }
@@ -338,7 +307,7 @@ impl Firmware for ServoBus {
 
     fn transmit(&mut self, now_us: u64, out: &mut Vec<u8>) {
         let now_ns = self.catch_up(now_us);
-        if !self.suffers(FaultKind::Stall) {
+        if self.stalled_until_ns().is_none() {
             self.wire.deliver(now_ns, out);
         }
     }
@@ -350,6 +319,8 @@ impl Firmware for ServoBus {
     }
 
     fn next_byte_us(&self) -> Option<u64> {
-        self.wire.next_delivery_ns().map(|ns| ns.div_ceil(1000))
+        let next_ns = self.wire.next_delivery_ns()?;
+        let stalled_ns = self.stalled_until_ns().unwrap_or(0);
+        Some(next_ns.max(stalled_ns).div_ceil(1000))
     }
 }

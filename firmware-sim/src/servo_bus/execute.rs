@@ -224,8 +224,10 @@ impl Servo {
 
     /// Whether its firmware knows the fast reads.
     pub(super) fn reads_fast(&self) -> bool {
-        self.facts
-            .fast_read_from
-            .is_some_and(|from| self.firmware() >= from)
+        !self.trouble.no_fast_read
+            && self
+                .facts
+                .fast_read_from
+                .is_some_and(|from| self.firmware() >= from)
     }
 }

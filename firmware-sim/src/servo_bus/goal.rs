@@ -118,6 +118,6 @@ impl Servo {
 
     /// Present Position.
     pub(super) fn present_counts(&self) -> i64 {
-        self.register_counts(self.plant.position)
+        self.register_counts(self.plant.encoder())
     }
 }

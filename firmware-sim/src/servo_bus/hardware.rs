@@ -25,11 +25,15 @@ pub(super) struct Supply {
     pub(super) volts: f64,
     /// The cable carries power and data.
     pub(super) cable: bool,
+    /// The data line reaches it.
+    pub(super) data: bool,
+    /// Volts that the supply line takes on the way here.
+    pub(super) line_drop: f64,
 }
 
 impl Supply {
     pub(super) fn is_on(self) -> bool {
-        self.cable && self.volts >= BROWN_OUT_VOLTS
+        self.cable && self.volts - self.line_drop >= BROWN_OUT_VOLTS
     }
 }
 
@@ -43,6 +47,26 @@ impl Servo {
             (true, false) => self.torque_off(),
             (false, true) => self.reboot(at_ns),
             _ => {}
+        }
+    }
+
+    /// The supply line takes this many volts on its way here.
+    pub(super) fn set_line_drop(&mut self, at_ns: u64, line_drop: f64) {
+        self.set_supply(
+            at_ns,
+            Supply {
+                line_drop,
+                ..self.supply
+            },
+        );
+    }
+
+    /// What it draws from the supply.
+    pub(super) fn drawn_amperes(&self) -> f64 {
+        if self.supply.is_on() {
+            self.plant.supply_a
+        } else {
+            0.0
         }
     }
 
@@ -68,7 +92,7 @@ impl Servo {
         let tenths = self.voltage_tenths();
         let bad_voltage =
             tenths < self.table.get(Reg::MinVoltageLimit) || tenths > self.table.get(Reg::MaxVoltageLimit);
-        let hot = self.plant.temperature_c > self.table.get(Reg::TemperatureLimit) as f64;
+        let hot = self.plant.heat.housing_c > self.table.get(Reg::TemperatureLimit) as f64;
         let bit = |holds: bool, bit: u8| if holds { bit } else { 0 };
         let now = bit(bad_voltage, VOLTAGE)
             | bit(hot, OVERHEATING)
@@ -90,7 +114,17 @@ impl Servo {
 
     /// Volts at the servo in tenths, as Present Input Voltage has them.
     pub(super) fn voltage_tenths(&self) -> i64 {
-        ((self.supply.volts - CABLE_DROP_VOLTS * self.plant.effort.abs()) * 10.0).round() as i64
+        (self.volts() * 10.0).round() as i64
+    }
+
+    /// Volts at the servo. A supply line of known resistance takes its own share; else every servo has a short cable.
+    pub(super) fn volts(&self) -> f64 {
+        let cable = if self.supply.line_drop > 0.0 {
+            self.supply.line_drop
+        } else {
+            CABLE_DROP_VOLTS * self.plant.effort.abs()
+        };
+        (self.supply.volts - cable).max(0.0)
     }
 
     /// The error bits set by a test rather than by the plant.

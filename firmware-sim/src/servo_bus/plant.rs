@@ -1,109 +1,305 @@
-//! Motor, gear, heat and load behind one servo: just enough that a driver's mistakes show.
+//! Motor, gear, heat and load behind one servo.
 //!
-//! The horn follows the trajectory through two equal first-order lags, which is a critically damped second
-//! order system that cannot overshoot, so the true speed is an average of past trajectory speeds and never
-//! exceeds them; before that, the motor's own top speed bounds what it can follow. Positions are encoder
-//! counts of the shaft, whatever the servo's registers make of them. All numbers here are ours, chosen to
-//! be plausible for a servo of a few watts.
+//! Two bodies are to be had. `ideal` follows the servo's trajectory smoothly and never exceeds it: whatever is
+//! wrong in its motion is the driver's doing. `real` is an electric motor with its torque, inertia and friction,
+//! moved by the position loop of the servo's firmware. Around both stand what pulls at the horn (`outside`),
+//! what the winding does to the temperature (`heat`), end stops and the play of the gear. Positions are encoder
+//! counts of the shaft, whatever the servo's registers make of them. Model and sources: `docs/simulator.md`.
+
+mod heat;
+mod ideal;
+mod motor;
+mod outside;
+mod real;
+
+pub use motor::PlantKind;
+pub use outside::Hand;
+
+pub(super) use motor::{MotorFacts, Printed};
+
+use heat::Heat;
+use ideal::Ideal;
+use outside::{Grip, Load};
+use real::Real;
 
 /// Plant step in seconds; one in nanoseconds is `STEP_NS`.
 pub(super) const STEP_SECS: f64 = 0.001;
 /// Plant step.
 pub(super) const STEP_NS: u64 = 1_000_000;
-/// Rate of each lag: 20 ms in all behind a moving goal.
-const BANDWIDTH_PER_SEC: f64 = 100.0;
-/// Distance behind the trajectory at which the motor pulls with all it has.
-const FULL_EFFORT_COUNTS: f64 = 180.0;
-/// Time constant of heating and cooling.
-const HEAT_SECS: f64 = 180.0;
-/// How much hotter than the room a motor gets at full effort.
-const HEAT_RISE_C: f64 = 70.0;
-/// The room.
-const AMBIENT_C: f64 = 25.0;
+/// How fast a load takes the horn through the play of the gear, radians a second. Ours.
+const FALL_RAD_PER_S: f64 = 2.0;
 
-/// State of the moving part.
+/// What the firmware asks of the motor for one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Order {
+    /// Be on the trajectory: counts, counts per second.
+    Position {
+        counts: f64,
+        velocity: f64,
+        gains: Gains,
+    },
+    /// Turn at this speed: counts per second; `counts` is where that would have led.
+    Speed { counts: f64, velocity: f64 },
+    /// Draw this share of the stall current.
+    Current { counts: f64, share: f64 },
+    /// This share of the supply.
+    Duty { counts: f64, share: f64 },
+}
+
+/// The position loop, per count: duty for a count of error, for a count a second of the error's change, for a
+/// count second of its sum, for a count a second of the trajectory; and the most it may ask for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Gains {
+    pub(super) p: f64,
+    pub(super) i: f64,
+    pub(super) d: f64,
+    pub(super) feed_forward: f64,
+    pub(super) duty_max: f64,
+}
+
+/// The moving part with its surroundings.
 #[derive(Clone, Debug)]
 pub(super) struct Plant {
-    /// True shaft position in counts.
+    /// True position of the horn in counts.
     pub(super) position: f64,
-    /// True shaft speed in counts per second.
+    /// True speed of the horn in counts per second.
     pub(super) velocity: f64,
     /// −1 to 1 of what the motor can pull.
     pub(super) effort: f64,
-    pub(super) temperature_c: f64,
-    /// Steady load from outside, −1 to 1 of what the motor can pull.
-    pub(super) load: f64,
-    /// Does not move under its own power.
+    /// What it draws from the supply, amperes.
+    pub(super) supply_a: f64,
+    pub(super) heat: Heat,
+    pub(super) load: Load,
+    /// Does not move under its own power nor by a hand.
     pub(super) stuck: bool,
-    /// Top speed of the motor, counts per second.
-    speed_max: f64,
-    /// What the motor can follow, then the first lag.
-    followed: f64,
-    lagged: f64,
-    lag_share: f64,
+    pub(super) backlash_rad: f64,
+    pub(super) jitter_counts: f64,
+    /// Where the horn meets an end, counts.
+    pub(super) stops: Option<[f64; 2]>,
+    pub(super) motor: MotorFacts,
+    rad_per_count: f64,
+    centre: f64,
+    grip: Option<Grip>,
+    body: Body,
+    /// Horn before motor by the play of the gear, counts.
+    play: f64,
+    noise: f64,
+    random: fastrand::Rng,
+}
+
+#[derive(Clone, Debug)]
+enum Body {
+    Ideal(Ideal),
+    Real(Real),
 }
 
 impl Plant {
-    pub(super) fn new(position: f64, speed_max: f64) -> Self {
+    pub(super) fn new(
+        position: f64,
+        centre: f64,
+        rad_per_count: f64,
+        motor: MotorFacts,
+        kind: PlantKind,
+    ) -> Self {
+        let speed_max = motor.no_load_rad_per_s / rad_per_count;
         Self {
             position,
             velocity: 0.0,
             effort: 0.0,
-            temperature_c: AMBIENT_C,
-            load: 0.0,
+            supply_a: motor.standby_a,
+            heat: Heat::default(),
+            load: Load::default(),
             stuck: false,
-            speed_max,
-            followed: position,
-            lagged: position,
-            lag_share: 1.0 - (-BANDWIDTH_PER_SEC * STEP_SECS).exp(),
+            backlash_rad: 0.0,
+            jitter_counts: 0.0,
+            stops: None,
+            body: match kind {
+                PlantKind::Ideal => Body::Ideal(Ideal::new(position, speed_max)),
+                PlantKind::Real => Body::Real(Real::new(position, &motor)),
+            },
+            motor,
+            rad_per_count,
+            centre,
+            grip: None,
+            play: 0.0,
+            noise: 0.0,
+            random: fastrand::Rng::with_seed(0),
         }
     }
 
-    /// One step under power, towards the trajectory's `target`.
-    pub(super) fn follow(&mut self, target: f64) {
-        let reach = self.speed_max * STEP_SECS;
-        self.followed += (target - self.followed).clamp(-reach, reach);
-        self.lagged += self.lag_share * (self.followed - self.lagged);
-        let step = (self.lag_share * (self.lagged - self.position)).clamp(-reach, reach);
-        let step = if self.stuck { 0.0 } else { step };
-        self.position += step;
-        self.velocity = step / STEP_SECS;
-        self.effort = ((self.followed - self.position) / FULL_EFFORT_COUNTS + self.load).clamp(-1.0, 1.0);
-        self.warm();
+    /// Decides what the encoder's noise is.
+    pub(super) fn seed(&mut self, seed: u64) {
+        self.random = fastrand::Rng::with_seed(seed);
+    }
+
+    /// What the encoder reads, counts.
+    pub(super) fn encoder(&self) -> f64 {
+        self.position + self.noise
+    }
+
+    /// One step under power, at `volts`.
+    pub(super) fn drive(&mut self, order: Order, volts: f64) {
+        let before = self.shaft();
+        let outside_nm = self.outside_nm();
+        let (encoder, inertia) = (self.encoder(), self.load.inertia_kg_m2());
+        let (stuck, rad_per_count) = (self.stuck, self.rad_per_count);
+        match &mut self.body {
+            Body::Ideal(ideal) => {
+                ideal.follow(order.counts(), stuck);
+                let effort = ideal.effort() - outside_nm / self.motor.stall_nm;
+                self.effort = effort.clamp(-1.0, 1.0);
+                self.supply_a = self.motor.standby_a + self.effort.abs() * self.motor.stall_a;
+            }
+            Body::Real(real) => {
+                let outcome = real.drive(order, encoder, volts, outside_nm, inertia, stuck, rad_per_count);
+                self.effort = (outcome.amperes / self.motor.stall_a).clamp(-1.0, 1.0);
+                self.supply_a = self.motor.standby_a + (outcome.amperes * outcome.duty).max(0.0);
+            }
+        }
+        self.moved_from(before, outside_nm);
     }
 
     /// One step without power, moved by `drift_per_sec` counts.
     pub(super) fn coast(&mut self, drift_per_sec: f64) {
-        let drift = if self.stuck { 0.0 } else { drift_per_sec };
-        self.position += drift * STEP_SECS;
-        self.velocity = drift;
+        let before = self.shaft();
+        let outside_nm = self.outside_nm();
+        let guided = self.grip.as_ref().and_then(Grip::place);
+        let (inertia, stuck) = (self.load.inertia_kg_m2(), self.stuck);
+        match &mut self.body {
+            _ if stuck => {}
+            Body::Ideal(ideal) => {
+                let pulled = self
+                    .grip
+                    .as_ref()
+                    .map_or(0.0, |_| outside_nm / self.motor.stall_nm);
+                let drift = drift_per_sec + pulled.clamp(-1.0, 1.0) * ideal.speed_max;
+                ideal.place(guided.unwrap_or(ideal.position + drift * STEP_SECS));
+            }
+            Body::Real(real) if drift_per_sec != 0.0 && self.grip.is_none() => {
+                real.place(real.position + drift_per_sec * STEP_SECS, drift_per_sec);
+            }
+            Body::Real(real) => real.coast(outside_nm, inertia, self.rad_per_count),
+        }
         self.effort = 0.0;
-        self.settle();
-        self.warm();
+        self.supply_a = self.motor.standby_a;
+        self.moved_from(before, outside_nm);
+    }
+
+    /// What pulls at the horn, newton metres in the sense of rising counts. A hand moves on with it.
+    fn outside_nm(&mut self) -> f64 {
+        let rad = (self.position - self.centre) * self.rad_per_count;
+        let needed = self.load.needed_nm(rad, self.motor.stall_nm);
+        let (position, velocity, rad_per_count) = (self.position, self.velocity, self.rad_per_count);
+        let hand = self
+            .grip
+            .as_mut()
+            .map_or(0.0, |grip| grip.pull_nm(position, velocity, rad_per_count));
+        hand - needed
+    }
+
+    /// End stops, play, noise and heat, after the shaft has moved.
+    fn moved_from(&mut self, before: f64, outside_nm: f64) {
+        if let Some([low, high]) = self.stops {
+            self.body.stop_within(low, high);
+        }
+        let shaft = self.shaft();
+        let horn_before = self.position;
+        let room = self.backlash_rad / self.rad_per_count / 2.0;
+        if room > 0.0 {
+            let fall = FALL_RAD_PER_S / self.rad_per_count * STEP_SECS;
+            let pushed = if outside_nm.abs() > self.motor.friction_nm {
+                outside_nm.signum()
+            } else {
+                0.0
+            };
+            self.play = (self.play - (shaft - before) + pushed * fall).clamp(-room, room);
+        } else {
+            self.play = 0.0;
+        }
+        self.position = shaft + self.play;
+        self.velocity = (self.position - horn_before) / STEP_SECS;
+        if self.jitter_counts > 0.0 {
+            self.noise = self.jitter_counts * (2.0 * self.random.f64() - 1.0);
+        } else {
+            self.noise = 0.0;
+        }
+        self.heat.step(self.effort);
+    }
+
+    fn shaft(&self) -> f64 {
+        match &self.body {
+            Body::Ideal(ideal) => ideal.position,
+            Body::Real(real) => real.position,
+        }
     }
 
     /// A hand moves the horn by `counts`. Under power the motor pulls it back.
     pub(super) fn push(&mut self, counts: f64, powered: bool) {
-        self.position += counts;
+        let shaft = self.shaft() + counts;
+        match &mut self.body {
+            Body::Ideal(ideal) => ideal.push(counts),
+            Body::Real(real) => real.place(shaft, 0.0),
+        }
+        if let Some([low, high]) = self.stops {
+            self.body.stop_within(low, high);
+        }
+        self.position = self.shaft() + self.play;
         if !powered {
             self.settle();
         }
     }
 
+    /// A hand takes the horn, or lets go of it.
+    pub(super) fn grip(&mut self, hand: Option<Hand>) {
+        self.grip = hand.map(|hand| Grip::new(hand, self.position, self.centre, self.rad_per_count));
+    }
+
     /// Forgets the trajectory: the next one begins where the shaft is.
     pub(super) fn settle(&mut self) {
-        self.followed = self.position;
-        self.lagged = self.position;
+        match &mut self.body {
+            Body::Ideal(ideal) => ideal.settle(),
+            Body::Real(real) => real.forget(),
+        }
     }
 
-    /// The encoder loses count of `counts` whole turns' worth.
+    /// The encoder loses count of whole turns; the shaft stays where it is.
     pub(super) fn recount(&mut self, position: f64) {
+        let shift = position - self.position;
+        let shaft = self.shaft() + shift;
+        match &mut self.body {
+            Body::Ideal(ideal) => ideal.place(shaft),
+            Body::Real(real) => {
+                real.position = shaft;
+                real.forget();
+            }
+        }
+        if let Some(stops) = &mut self.stops {
+            *stops = stops.map(|stop| stop + shift);
+        }
+        if let Some(grip) = &mut self.grip {
+            grip.shift(shift);
+        }
         self.position = position;
-        self.settle();
     }
+}
 
-    fn warm(&mut self) {
-        let goal = AMBIENT_C + HEAT_RISE_C * self.effort * self.effort;
-        self.temperature_c += (goal - self.temperature_c) * STEP_SECS / HEAT_SECS;
+impl Body {
+    fn stop_within(&mut self, low: f64, high: f64) {
+        match self {
+            Self::Ideal(ideal) => ideal.stop_within(low, high),
+            Self::Real(real) => real.stop_within(low, high),
+        }
+    }
+}
+
+impl Order {
+    /// Where the trajectory is.
+    fn counts(self) -> f64 {
+        match self {
+            Self::Position { counts, .. }
+            | Self::Speed { counts, .. }
+            | Self::Current { counts, .. }
+            | Self::Duty { counts, .. } => counts,
+        }
     }
 }

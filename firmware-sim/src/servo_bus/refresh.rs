@@ -63,7 +63,7 @@ impl Servo {
             Reg::VelocityTrajectory => speed(self.trajectory(at_ns).0.velocity),
             Reg::PositionTrajectory => self.register_counts(self.trajectory(at_ns).0.position),
             Reg::PresentInputVoltage => self.voltage_tenths(),
-            Reg::PresentTemperature => self.plant.temperature_c.round() as i64,
+            Reg::PresentTemperature => self.plant.heat.housing_c.round() as i64,
             _ => return None,
         })
     }

@@ -4,9 +4,10 @@
 //! looked at. Source: the maker's control table pages for the XL330-M288 and XL430-W250.
 
 use super::hardware::Supply;
-use super::plant::{Plant, STEP_NS, STEP_SECS};
+use super::plant::{MotorFacts, Plant, Printed, STEP_NS, STEP_SECS};
 use super::table::{Reg, Table};
 use super::trajectory::Plan;
+use super::trouble::Trouble;
 use super::unit::{Counters, Sag, Unit};
 use device_profiles::{Area, ServoProfile};
 
@@ -55,6 +56,7 @@ pub struct Servo {
     /// Latched until reboot: Shutdown took the torque away.
     pub(super) shut_down: bool,
     pub(super) forced_temperature_c: Option<f64>,
+    pub(super) trouble: Trouble,
     pub(super) strained_steps: u32,
 }
 
@@ -62,17 +64,18 @@ impl Servo {
     pub(super) fn new(profile: &ServoProfile, unit: Unit, bus_baud: u32) -> Self {
         let facts = Facts::of(profile);
         let table = Table::new(profile);
-        // The no-load speed is near the factory's Velocity Limit (61 rpm for the XL430, 103 for the XL330).
-        let speed_max = table.get(Reg::VelocityLimit).max(1) as f64 * facts.speed_unit;
+        let motor = motor_of(profile, &table, &facts);
         let position = facts.centre + unit.start_rad / facts.rad_per_count;
         let mut servo = Self {
             supply: Supply {
                 volts: 0.0,
                 cable: true,
+                data: true,
+                line_drop: 0.0,
             },
+            plant: Plant::new(position, facts.centre, facts.rad_per_count, motor, unit.plant),
             facts,
             table,
-            plant: Plant::new(position, speed_max),
             plan: Plan::rest(position),
             plan_from_ns: 0,
             counters: Counters::default(),
@@ -87,10 +90,12 @@ impl Servo {
             booted_ns: 0,
             shut_down: false,
             forced_temperature_c: None,
+            trouble: Trouble::default(),
             strained_steps: 0,
             unit,
         };
         servo.supply.volts = servo.nominal_volts();
+        servo.set_stops(servo.unit.stops_rad);
         servo.table.set(Reg::ModelNumber, i64::from(profile.model_number));
         servo.table.set(
             Reg::FirmwareVersion,
@@ -160,8 +165,8 @@ impl Servo {
     fn step(&mut self) {
         let before = self.plant.velocity;
         if self.torque_is_on() {
-            let (state, _) = self.trajectory(self.stepped_ns);
-            self.plant.follow(state.position);
+            let order = self.order();
+            self.plant.drive(order, self.volts());
             let unit = self.facts.rad_per_count;
             let speed = self.plant.velocity.abs() * unit;
             let acceleration = (self.plant.velocity - before).abs() * unit / STEP_SECS;
@@ -173,7 +178,7 @@ impl Servo {
             self.plant.coast(self.sag_per_sec());
         }
         if let Some(celsius) = self.forced_temperature_c {
-            self.plant.temperature_c = celsius;
+            self.plant.heat.housing_c = celsius;
         }
         if self.supply.is_on() {
             self.watch_the_hardware();
@@ -232,11 +237,22 @@ impl Servo {
     /// Whether it hears a bus at `baud` at `at_ns`: connected, awake, and within three per cent of its speed.
     pub(super) fn hears(&self, at_ns: u64, baud: u32) -> bool {
         self.supply.is_on()
+            && self.supply.data
+            && !self.trouble.deaf
             && at_ns >= self.booting_until_ns
-            && self.baud().is_some_and(|own| own.abs_diff(baud) <= own / 33)
+            && self.baud().is_some_and(|own| self.understands(own, baud))
+    }
+
+    /// Three per cent between two clocks are harmless.
+    fn understands(&self, own: u32, baud: u32) -> bool {
+        let own = f64::from(own) * (1.0 + f64::from(self.unit.drift_ppm) * 1e-6);
+        (own - f64::from(baud)).abs() <= own / 33.0
     }
 
     fn baud(&self) -> Option<u32> {
+        if self.trouble.odd_baud.is_some() {
+            return self.trouble.odd_baud;
+        }
         self.facts
             .bauds
             .get(self.table.get(Reg::BaudRate) as usize)
@@ -268,4 +284,28 @@ impl Facts {
             fast_read_from: profile.fast_sync_read_from_firmware,
         }
     }
+}
+
+/// The motor as its maker prints it. Of a model without such numbers only the speed is known: the factory's
+/// velocity limit is near it (61 rpm for the XL430, 103 for the XL330); the rest is that of a small servo.
+fn motor_of(profile: &ServoProfile, table: &Table, facts: &Facts) -> MotorFacts {
+    let limit = table.get(Reg::VelocityLimit).max(1) as f64;
+    MotorFacts::of(match &profile.motor {
+        Some(motor) => Printed {
+            stall_nm: motor.stall_torque_nm,
+            no_load_rad_per_s: motor.no_load_speed_rad_per_s,
+            volts: motor.rated_voltage_v,
+            stall_a: motor.stall_current_a,
+            standby_a: motor.standby_current_a.unwrap_or(0.0),
+            inertia_kg_m2: Some(motor.rotor_inertia_kg_m2),
+        },
+        None => Printed {
+            stall_nm: 1.0,
+            no_load_rad_per_s: limit * facts.speed_unit * facts.rad_per_count,
+            volts: 12.0,
+            stall_a: 1.3,
+            standby_a: 0.05,
+            inertia_kg_m2: None,
+        },
+    })
 }

@@ -2,7 +2,7 @@
 //!
 //! The rows come from the servo's profile; indirect data bytes stand for the bytes their addresses name.
 
-use device_profiles::{Access, Area, Register, ServoProfile};
+use device_profiles::{Access, Area, Register, Role, ServoProfile};
 
 /// Registers the firmware itself works with, by their names in the maker's table.
 macro_rules! known_registers {
@@ -173,6 +173,10 @@ impl Table {
 
     pub(super) fn row_named(&self, name: &str) -> Option<&Register> {
         self.rows.iter().find(|row| row.name == name)
+    }
+
+    pub(super) fn row_of(&self, role: Role) -> Option<&Register> {
+        self.rows.iter().find(|row| row.role == Some(role))
     }
 
     /// Which register the firmware knows begins at `address`.

@@ -3,7 +3,9 @@
 mod faults;
 mod instructions;
 mod motion;
+mod physics;
 mod timing;
+mod troubles;
 mod vectors;
 
 use super::*;

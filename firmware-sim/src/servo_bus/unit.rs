@@ -1,5 +1,7 @@
 //! What is said about one copy of a servo when it is put on the bus, and what is counted of its life.
 
+use super::plant::PlantKind;
+
 /// What a read of bytes that no register covers gives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Gaps {
@@ -32,6 +34,10 @@ pub struct Unit {
     pub supply_volts: Option<f64>,
     /// What reads of undefined bytes give.
     pub gaps: Gaps,
+    /// What its shaft is moved by.
+    pub plant: PlantKind,
+    /// Where the horn meets an end either way, radians from the middle of the position range; none: it turns freely.
+    pub stops_rad: Option<[f64; 2]>,
 }
 
 impl Unit {
@@ -47,6 +53,8 @@ impl Unit {
             drift_ppm: 0,
             supply_volts: None,
             gaps: Gaps::default(),
+            plant: PlantKind::default(),
+            stops_rad: None,
         }
     }
 

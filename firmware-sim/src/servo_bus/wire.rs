@@ -52,10 +52,11 @@ impl Byte {
 #[derive(Clone, Debug)]
 pub(super) struct Wire {
     pub(super) byte_ns: u64,
-    adapter: Option<Adapter>,
+    pub(super) adapter: Option<Adapter>,
     to_servos: VecDeque<Byte>,
     to_host: VecDeque<Byte>,
     host_free_ns: u64,
+    host_held_ns: u64,
     servos_free_ns: u64,
     /// Bytes spoilt by a second sender.
     pub(super) collisions: u64,
@@ -69,15 +70,21 @@ impl Wire {
             to_servos: VecDeque::new(),
             to_host: VecDeque::new(),
             host_free_ns: 0,
+            host_held_ns: 0,
             servos_free_ns: 0,
             collisions: 0,
         }
     }
 
+    /// The host says nothing before `until_ns`, whatever its program writes.
+    pub(super) fn hold_host_until(&mut self, until_ns: u64) {
+        self.host_held_ns = until_ns;
+    }
+
     /// The host writes one byte at `now_ns` or as soon as its last is out; `heard_back` is an echo.
     pub(super) fn host_sends(&mut self, now_ns: u64, byte: u8, heard_back: bool) {
-        let start_ns = self.host_free_ns.max(now_ns);
-        self.host_free_ns = start_ns + self.byte_ns;
+        let start_ns = self.host_free_ns.max(now_ns).max(self.host_held_ns);
+        self.host_free_ns = start_ns.saturating_add(self.byte_ns);
         let mut sent = Byte {
             start_ns,
             end_ns: self.host_free_ns,

@@ -3,6 +3,7 @@
 use super::servo::Servo;
 use super::table::Reg;
 use super::unit::Counters;
+use device_profiles::Role;
 
 impl Servo {
     /// Its number now.
@@ -30,9 +31,30 @@ impl Servo {
         self.supply.is_on()
     }
 
-    /// Motor temperature in degrees Celsius.
+    /// Temperature where its sensor is, degrees Celsius.
     pub fn temperature_c(&self) -> f64 {
-        self.plant.temperature_c
+        self.plant.heat.housing_c
+    }
+
+    /// Temperature of the motor's winding, which no register tells.
+    pub fn winding_c(&self) -> f64 {
+        self.plant.heat.winding_c
+    }
+
+    /// Volts at its terminals.
+    pub fn supply_volts(&self) -> f64 {
+        self.volts()
+    }
+
+    /// What its motor can do.
+    #[cfg(test)]
+    pub(super) fn motor(&self) -> super::plant::MotorFacts {
+        self.plant.motor
+    }
+
+    /// What it draws from the supply, amperes.
+    pub fn supply_amperes(&self) -> f64 {
+        self.plant.supply_a
     }
 
     /// −1 to 1 of what the motor can pull.
@@ -54,6 +76,12 @@ impl Servo {
                 .and_then(|reg| self.fresh(reg, self.stepped_ns))
                 .unwrap_or_else(|| self.table.value(row)),
         )
+    }
+
+    /// The present value of the register of that role; none if the model lacks it.
+    pub fn register_of(&self, role: Role) -> Option<i64> {
+        let row = self.table.row_of(role)?;
+        self.register(&row.name)
     }
 
     /// The EEPROM as bytes from address 0, to be kept between runs.

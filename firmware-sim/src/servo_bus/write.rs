@@ -37,6 +37,9 @@ impl Servo {
 
     /// Whether `bytes` may be written at `address` now: an error number or 0.
     pub(super) fn check_write(&self, address: u16, bytes: &[u8]) -> u8 {
+        if self.trouble.refuses_writes {
+            return error::ACCESS;
+        }
         if usize::from(address) + bytes.len() > self.table.memory().len() {
             return error::ACCESS;
         }

@@ -1,0 +1,269 @@
+//! The motor behind a real shaft: what its maker prints, what a hand and a weight do, and that it repeats.
+
+use super::*;
+use std::f64::consts::TAU;
+
+const RAD: f64 = TAU / 4096.0;
+
+fn real(count: u8) -> Host {
+    let profiles = Profiles::builtin();
+    let profile = profiles.servo("xl430-w250").expect("shipped");
+    let mut bus = ServoBus::new(BusOptions::default());
+    for id in 1..=count {
+        let unit = Unit {
+            return_delay_us: Some(0),
+            plant: PlantKind::Real,
+            ..Unit::new(id)
+        };
+        bus.add(profile, unit).expect("fits");
+    }
+    Host::new(bus)
+}
+
+fn shaft(host: &Host) -> f64 {
+    host.bus.servo(1).expect("there").true_position_rad()
+}
+
+fn speed(host: &Host) -> f64 {
+    host.bus.servo(1).expect("there").true_velocity_rad_per_s()
+}
+
+fn inject(host: &mut Host, text: &str) {
+    host.bus.inject(host.now_us, &Fault::parse(text).expect(text));
+}
+
+/// Pulse width mode, torque on, this share of 885.
+fn full_drive(host: &mut Host, pwm: i16) {
+    assert_eq!(host.error_of(&write(1, 11, &[16])), Some(0));
+    assert_eq!(host.error_of(&write(1, 64, &[1])), Some(0));
+    assert_eq!(host.error_of(&write(1, 100, &pwm.to_le_bytes())), Some(0));
+}
+
+#[test]
+fn at_full_drive_it_runs_at_its_printed_speed_and_stalls_at_its_printed_torque() {
+    let facts = real(1).bus.servo(1).expect("there").motor();
+    let mut host = real(1);
+    inject(&mut host, &format!("supply {}V", facts.volts));
+    full_drive(&mut host, 885);
+    host.wait(1000);
+    assert!(
+        (speed(&host) / facts.no_load_rad_per_s - 1.0).abs() < 0.03,
+        "{}",
+        speed(&host)
+    );
+    let amperes = host.bus.servo(1).expect("there").supply_amperes();
+    assert!(amperes < 0.2 * facts.stall_a, "hardly any current: {amperes}");
+    // Against a little less than the printed torque it still moves; against a little more it is turned back.
+    for (share, forward) in [(0.93, true), (1.07, false)] {
+        let mut host = real(1);
+        inject(&mut host, &format!("supply {}V", facts.volts));
+        inject(&mut host, &format!("servo 1 load {}Nm", share * facts.stall_nm));
+        full_drive(&mut host, 885);
+        host.wait(300);
+        assert_eq!(speed(&host) > 0.0, forward, "{share}: {}", speed(&host));
+    }
+}
+
+#[test]
+fn a_step_is_made_quickly_and_settles_within_what_friction_leaves() {
+    let mut host = real(1);
+    host.drive(1, 3000);
+    host.wait(100);
+    assert!(speed(&host) > 1.0);
+    host.wait(1500);
+    assert!(
+        host.register(1, "Present Position").abs_diff(3000) <= 6,
+        "{}",
+        host.register(1, "Present Position")
+    );
+    assert!(speed(&host).abs() < 1e-6, "dry friction holds it: no hunting");
+    let top = host.bus.servo(1).expect("there").counters().speed_max_rad_per_s;
+    let motor = host.bus.servo(1).expect("there").motor();
+    assert!(top <= motor.no_load_rad_per_s * 1.05, "{top}");
+}
+
+#[test]
+fn a_profile_is_followed_with_a_lag() {
+    let mut host = real(1);
+    let bytes = [0i32.to_le_bytes(), 60i32.to_le_bytes()].concat();
+    host.ask(&write(1, 108, &bytes));
+    host.drive(1, 3000);
+    host.wait(400);
+    let behind = host.register(1, "Position Trajectory") - host.register(1, "Present Position");
+    assert!((1..=60).contains(&behind), "{behind}");
+    assert!(
+        (speed(&host) - 60.0 * 0.229 * TAU / 60.0).abs() < 0.1,
+        "{}",
+        speed(&host)
+    );
+}
+
+#[test]
+fn a_weight_makes_it_sag_heats_it_and_drops_without_torque() {
+    let mut host = real(1);
+    host.ask(&write(1, 64, &[1]));
+    inject(&mut host, "servo 1 carries 0.3kg at 0.15m");
+    host.wait(2000);
+    let sunk = 2048 - host.register(1, "Present Position");
+    assert!((3..=200).contains(&sunk), "{sunk}");
+    let load = host.register(1, "Present Load");
+    assert!((200..=700).contains(&load), "it pulls up: {load}");
+    host.wait(60_000);
+    assert!(host.register(1, "Present Temperature") > 25);
+    host.ask(&write(1, 64, &[0]));
+    host.wait(100);
+    assert!(speed(&host) < -0.5, "it falls: {}", speed(&host));
+    host.wait(10_000);
+    assert!(
+        (shaft(&host) + TAU / 4.0).abs() < 0.2,
+        "and hangs: {}",
+        shaft(&host)
+    );
+}
+
+#[test]
+fn a_hand_takes_it_along_without_torque_and_meets_the_stops() {
+    for kind in [PlantKind::Ideal, PlantKind::Real] {
+        let profiles = Profiles::builtin();
+        let mut bus = ServoBus::new(BusOptions::default());
+        let unit = Unit {
+            return_delay_us: Some(0),
+            plant: kind,
+            stops_rad: Some([-1.0, 1.2]),
+            ..Unit::new(1)
+        };
+        bus.add(profiles.servo("xl430-w250").expect("shipped"), unit)
+            .expect("fits");
+        let mut host = Host::new(bus);
+        let to = |to_rad| {
+            Some(Hand::Guide {
+                to_rad,
+                over_secs: 0.5,
+            })
+        };
+        assert!(host.bus.hand(0, 1, to(0.6)));
+        assert!(!host.bus.hand(0, 9, None), "there is no such servo");
+        host.wait(250);
+        assert!(
+            (0.2..0.4).contains(&shaft(&host)),
+            "{kind:?}: half way {}",
+            shaft(&host)
+        );
+        host.wait(1000);
+        assert!((shaft(&host) - 0.6).abs() < 0.02, "{kind:?}: {}", shaft(&host));
+        assert!((host.register(1, "Present Position") as f64 - 2048.0 - 0.6 / RAD).abs() < 15.0);
+        host.bus.hand(host.now_us, 1, to(3.0));
+        host.wait(1000);
+        assert!(
+            (shaft(&host) - 1.2).abs() < 1e-9,
+            "{kind:?}: an end stop, {}",
+            shaft(&host)
+        );
+        host.bus.hand(host.now_us, 1, to(-3.0));
+        host.wait(1000);
+        assert!(
+            (shaft(&host) + 1.0).abs() < 1e-9,
+            "{kind:?}: the other, {}",
+            shaft(&host)
+        );
+        host.bus.hand(host.now_us, 1, None);
+        host.wait(1000);
+        assert!(
+            (shaft(&host) + 1.0).abs() < 0.01,
+            "{kind:?}: let go, it stays: {}",
+            shaft(&host)
+        );
+        host.bus.hand(host.now_us, 1, Some(Hand::Pull { nm: 0.2 }));
+        host.wait(200);
+        assert!(speed(&host) > 0.1, "{kind:?}: pulled, it turns: {}", speed(&host));
+    }
+}
+
+#[test]
+fn torque_holds_against_a_hand_as_far_as_it_goes() {
+    let mut host = real(1);
+    host.ask(&write(1, 64, &[1]));
+    host.bus.hand(host.now_us, 1, Some(Hand::Pull { nm: 0.4 }));
+    host.wait(1000);
+    assert!((0.005..0.3).contains(&shaft(&host)), "{}", shaft(&host));
+    assert!(host.register(1, "Present Load") < -200, "it pulls back");
+    host.bus.hand(host.now_us, 1, None);
+    host.wait(1000);
+    assert!(shaft(&host).abs() < 0.01, "{}", shaft(&host));
+}
+
+#[test]
+fn play_shows_at_the_horn_and_a_dry_gear_stays_where_it_is() {
+    let mut host = real(1);
+    inject(&mut host, "servo 1 backlash 2deg");
+    host.ask(&write(1, 64, &[1]));
+    // A load takes the horn to one side of the play, the other way to the other.
+    let mut ends = Vec::new();
+    for nm in [0.1, -0.1] {
+        inject(&mut host, &format!("servo 1 load {nm}Nm for 1s"));
+        host.ask(&write(1, 64, &[0]));
+        host.bus.push(host.now_us, 1, -shaft(&host));
+        host.ask(&write(1, 64, &[1]));
+        host.wait(900);
+        ends.push(shaft(&host));
+        host.wait(300);
+    }
+    let play = (ends[1] - ends[0]).to_degrees();
+    assert!(play > 1.0, "{play}");
+}
+
+#[test]
+fn current_mode_is_a_torque() {
+    let profiles = Profiles::builtin();
+    let mut bus = ServoBus::new(BusOptions::default());
+    let unit = Unit {
+        return_delay_us: Some(0),
+        plant: PlantKind::Real,
+        ..Unit::new(1)
+    };
+    bus.add(profiles.servo("xl330-m288").expect("shipped"), unit)
+        .expect("fits");
+    let mut host = Host::new(bus);
+    assert_eq!(host.error_of(&write(1, 11, &[0])), Some(0));
+    host.ask(&write(1, 64, &[1]));
+    host.ask(&write(1, 102, &300i16.to_le_bytes()));
+    host.wait(100);
+    let early = speed(&host);
+    assert!(early > 0.1);
+    inject(&mut host, "servo 1 stuck");
+    host.wait(100);
+    let bytes = host.ask(&read(1, 126, 2));
+    let milliamperes = i16::from_le_bytes([bytes[9], bytes[10]]);
+    assert!(
+        (200..=400).contains(&milliamperes),
+        "what was asked for: {milliamperes}"
+    );
+}
+
+#[test]
+fn the_same_story_comes_out_the_same_however_it_is_asked_for() {
+    let play = |cut: u64| {
+        let mut host = real(3);
+        for text in [
+            "cable 0.5ohm",
+            "servo 2 jitter 2",
+            "servo 3 backlash 1deg",
+            "servo 1 carries 0.1kg at 0.1m",
+        ] {
+            inject(&mut host, text);
+        }
+        host.bus.receive(0, &packet(254, 3, &[64, 0, 1]));
+        host.bus.receive(0, &packet(254, 3, &[116, 0, 0, 12, 0, 0]));
+        let mut out = Vec::new();
+        let mut at = 0;
+        while at < 900_000 {
+            at += cut;
+            host.bus.transmit(at.min(900_000), &mut out);
+        }
+        let servos = host.bus.servos().iter();
+        servos
+            .map(|servo| servo.true_position_rad().to_bits())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(play(900_000), play(777));
+}
