@@ -23,6 +23,8 @@ pub use policy::{Policy, Reaction};
 pub use profiles::{Kind, Profiles};
 pub use puppet::{Coupling, PuppetBus, PuppetGroup, PuppetJoint, PuppetProfile};
 pub use read::read_file;
-pub use servo::{Access, Area, Motor, Register, Role, ServoProfile, ServoProtocol, Unit, Variant, WordOrder};
+pub use servo::{
+    Access, Area, HardwareFault, Motor, Register, Role, ServoProfile, ServoProtocol, Unit, Variant, WordOrder,
+};
 pub use status::Status;
 pub use tablet::{Identify, SerialTool, Surface, TabletProfile, Tool};

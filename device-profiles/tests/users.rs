@@ -310,17 +310,19 @@ fn right_variants_and_couplings_are_taken() {
     assert!((coupling.angle_rad(1.0) - 0.6).abs() < 1e-12);
 
     let older = format!(
-        "{SERVO}\n[[variant]]\nfirmware = [1, 10]\nremoved = [\"Backup Ready\"]\nregisters = [\n    {{ address = 147, \
-         size = 1, name = \"Spare\", area = \"ram\", access = \"r\" }},\n]\n"
+        "{SERVO}\n[[variant]]\nfirmware = [50, 51]\nremoved = [\"Moving\"]\nregisters = [\n    {{ address = 122, size = \
+         1, name = \"Spare\", area = \"ram\", access = \"r\" }},\n]\n"
     );
     let all = read_own("older", &older).unwrap();
     let servo = all.servo("own").unwrap();
     let names = |firmware| {
         let own = servo.at_firmware(firmware);
-        let row = own.register_at(147).unwrap().name.clone();
+        let row = own.register_at(122).unwrap().name.clone();
         (own.firmware, row, own.registers.len())
     };
     let rows = servo.registers.len();
-    assert_eq!(names(10), (10, "Spare".to_owned(), rows));
-    assert_eq!(names(11), (53, "Backup Ready".to_owned(), rows));
+    assert_eq!(names(51), (51, "Spare".to_owned(), rows));
+    assert_eq!(names(52), (52, "Moving".to_owned(), rows));
+    assert_eq!(names(53), (53, "Moving".to_owned(), rows));
+    assert_eq!(names(60), (53, "Moving".to_owned(), rows));
 }

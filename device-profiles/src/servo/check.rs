@@ -52,6 +52,12 @@ impl ServoProfile {
                 ),
             );
         }
+        if let Some((fault, bit)) = self.fault_bits.iter().find(|&(_, &bit)| bit > 7) {
+            flaw(
+                "fault_bits",
+                format!("fault_bits must be bits 0 to 7 of a byte, found {bit} for {fault}"),
+            );
+        }
         if self.registers.is_empty() {
             flaw(
                 "registers",

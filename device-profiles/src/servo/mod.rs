@@ -1,11 +1,13 @@
 //! Servos: the control table with its units, limits and start values, row by row as the maker prints it.
 
 mod check;
+mod fault;
 mod motor;
 mod register;
 mod role;
 mod variant;
 
+pub use fault::HardwareFault;
 pub use motor::Motor;
 pub use register::{Access, Area, Register, Unit};
 pub use role::Role;
@@ -13,6 +15,7 @@ pub use variant::Variant;
 
 use crate::Status;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// One servo model. Registers keep the maker's names, for people; programs find them by [`Role`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,6 +66,9 @@ pub struct ServoProfile {
     /// For this long after an EEPROM write, for each byte written, it hears nothing; absent: not known of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eeprom_deaf_us_per_byte: Option<u32>,
+    /// Which bit stands for which fault, in the registers with roles `hardware-error` and `shutdown`; where the
+    /// protocol is DYNAMIXEL 1.0 or Feetech's, in the error byte of every answer too.
+    pub fault_bits: BTreeMap<HardwareFault, u8>,
     /// The control table, addresses ascending.
     pub registers: Vec<Register>,
     /// What motor and gears can do; absent: not known.
@@ -186,6 +192,19 @@ impl ServoProfile {
             self.baud_codes.iter().position(|&known| known == code)?
         };
         self.bauds.get(at).copied()
+    }
+
+    /// The faults that a value of `hardware-error` tells of; bits without a meaning are left out.
+    pub fn faults(&self, bits: u8) -> impl Iterator<Item = HardwareFault> + '_ {
+        self.fault_bits
+            .iter()
+            .filter(move |&(_, &bit)| bits >> bit & 1 == 1)
+            .map(|(&fault, _)| fault)
+    }
+
+    /// The bit that stands for a fault, alone in a byte; 0 where the servo has none for it.
+    pub fn fault_mask(&self, fault: HardwareFault) -> u8 {
+        self.fault_bits.get(&fault).map_or(0, |&bit| 1 << bit)
     }
 
     /// One past the table's last byte.
