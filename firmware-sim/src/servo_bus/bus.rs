@@ -4,15 +4,16 @@
 //! does not depend on how the calls are cut up.
 
 use super::chain::{Absent, Chain};
+use super::dynamixel2::receiver::{BadCrc, InnerHeader};
 use super::fault::BusFault;
 use super::fault_run::Running;
-use super::packet::ID_MAX;
-use super::receiver::{BadCrc, InnerHeader, Receiver};
+use super::heard::{Framing, Heard};
 use super::servo::Servo;
 use super::unit::Unit;
-use super::wire::{Adapter, Wire, WireTime};
+use super::wire::{Adapter, Byte, Wire, WireTime};
+use super::{dynamixel2, summed};
 use crate::firmware::Firmware;
-use device_profiles::ServoProfile;
+use device_profiles::{ServoProfile, ServoProtocol};
 use std::collections::VecDeque;
 
 /// How many answers are remembered for `statuses`.
@@ -60,9 +61,16 @@ impl Default for BusOptions {
 /// Why a servo cannot be put on the bus.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum AddError {
-    /// expected an id from 0 to 252, found {0}
-    #[error("expected an id from 0 to 252, found {0}")]
-    Id(u8),
+    /// a number no such servo can have
+    #[error("{servo}: expected an id from 0 to {max}, found {id}")]
+    Id {
+        /// Name of the model.
+        servo: String,
+        /// What was asked for.
+        id: u8,
+        /// The largest there is in its protocol.
+        max: u8,
+    },
     /// the model has no such line speed
     #[error("{servo} cannot speak at {baud} baud; it has {known:?}")]
     Baud {
@@ -95,7 +103,7 @@ pub struct StatusSent {
 pub struct ServoBus {
     pub(super) options: BusOptions,
     pub(super) servos: Vec<Servo>,
-    pub(super) receiver: Receiver,
+    receivers: Receivers,
     pub(super) chain: Chain,
     pub(super) faults: Vec<Running>,
     pub(super) random: fastrand::Rng,
@@ -104,6 +112,8 @@ pub struct ServoBus {
     pub(super) reboots: Vec<usize>,
     pub(super) wire: Wire,
     pub(super) ohms: f64,
+    heard_until_ns: u64,
+    params: Vec<u8>,
     reached_ns: u64,
     merged: Vec<u8>,
     merged_delay_ns: Option<u64>,
@@ -116,15 +126,20 @@ impl ServoBus {
         Self {
             wire: Wire::new(byte_ns(options.wire, options.baud), options.adapter),
             random: fastrand::Rng::with_seed(options.seed),
-            receiver: Receiver::new(options.inner_header),
+            receivers: Receivers {
+                dynamixel2: dynamixel2::receiver::Receiver::new(options.inner_header),
+                summed: summed::receiver::Receiver::default(),
+            },
             options,
             servos: Vec::new(),
-            chain: Chain::default(),
+            chain: Chain::new(),
             faults: Vec::new(),
             answer_params: Vec::new(),
             one_answer: Vec::new(),
             reboots: Vec::new(),
             ohms: 0.0,
+            heard_until_ns: 0,
+            params: Vec::new(),
             reached_ns: 0,
             merged: Vec::new(),
             merged_delay_ns: None,
@@ -134,8 +149,16 @@ impl ServoBus {
 
     /// Hangs a servo on the end of the chain. Two of the same number are allowed, as on a real bus.
     pub fn add(&mut self, profile: &ServoProfile, unit: Unit) -> Result<(), AddError> {
-        if unit.id > ID_MAX {
-            return Err(AddError::Id(unit.id));
+        let max = match profile.protocol {
+            ServoProtocol::Dynamixel2 => dynamixel2::packet::ID_MAX,
+            _ => summed::packet::ID_MAX,
+        };
+        if unit.id > max {
+            return Err(AddError::Id {
+                servo: profile.name.clone(),
+                id: unit.id,
+                max,
+            });
         }
         let baud = unit.baud.unwrap_or(self.options.baud);
         if !profile.bauds.contains(&baud) {
@@ -182,7 +205,10 @@ impl ServoBus {
 
     /// Packets of the host that no servo could read.
     pub fn dropped_packets(&self) -> u64 {
-        self.receiver.dropped
+        let speaks = |framing| self.servos.iter().any(|servo| servo.framing() == framing);
+        let count = |framing, dropped| if speaks(framing) { dropped } else { 0 };
+        count(Framing::Dynamixel2, self.receivers.dynamixel2.dropped)
+            + count(Framing::Summed, self.receivers.summed.dropped)
     }
 
     pub(super) fn catch_up(&mut self, now_us: u64) -> u64 {
@@ -208,20 +234,32 @@ impl ServoBus {
             } else if self.chain.next_ns().is_some_and(|due| due <= at_ns) {
                 self.step_chain();
             } else if let Some(byte) = self.wire.arrival(at_ns) {
-                let start_ns = if self.options.wire == WireTime::Real {
-                    byte.start_ns
-                } else {
-                    0
-                };
-                let arrived = self.through_noise(None, byte.value);
-                if let Some(heard) = self.receiver.push(start_ns, byte.end_ns, arrived) {
-                    self.dispatch(byte.end_ns, heard);
-                    self.receiver.clear();
-                }
+                self.hear(byte);
             }
         }
         self.reached_ns = self.reached_ns.max(to_ns);
         self.advance_servos(to_ns);
+    }
+
+    /// A byte of the host has reached the servos: whatever it completes is carried out.
+    fn hear(&mut self, byte: Byte) {
+        let idle_ns = match self.options.wire {
+            WireTime::Real => byte.start_ns.saturating_sub(self.heard_until_ns),
+            WireTime::None => 0,
+        };
+        self.heard_until_ns = byte.end_ns;
+        let value = self.through_noise(None, byte.value);
+        let mut params = std::mem::take(&mut self.params);
+        for framing in [Framing::Dynamixel2, Framing::Summed] {
+            params.clear();
+            if let Some(heard) = self
+                .receivers
+                .push(framing, idle_ns, byte.end_ns, value, &mut params)
+            {
+                self.dispatch(byte.end_ns, heard, &params);
+            }
+        }
+        self.params = params;
     }
 
     /// Nobody has answered yet.
@@ -287,6 +325,46 @@ impl ServoBus {
     }
 }
 
+/// What the servos have heard of a packet so far, in each way a packet may be put together.
+#[derive(Clone, Debug)]
+struct Receivers {
+    dynamixel2: dynamixel2::receiver::Receiver,
+    summed: summed::receiver::Receiver,
+}
+
+impl Receivers {
+    /// A packet that `byte` completes; its parameters go to `params`.
+    fn push(
+        &mut self,
+        framing: Framing,
+        idle_ns: u64,
+        end_ns: u64,
+        byte: u8,
+        params: &mut Vec<u8>,
+    ) -> Option<Heard> {
+        match framing {
+            Framing::Dynamixel2 => {
+                let heard = self.dynamixel2.push(idle_ns, end_ns, byte)?;
+                params.extend_from_slice(self.dynamixel2.params());
+                self.dynamixel2.clear();
+                Some(heard)
+            }
+            Framing::Summed => {
+                let heard = self.summed.push(idle_ns, end_ns, byte)?;
+                params.extend_from_slice(self.summed.params());
+                self.summed.clear();
+                Some(heard)
+            }
+        }
+    }
+
+    /// A packet under way comes at another speed from here on: noise.
+    fn give_up(&mut self) {
+        self.dynamixel2.give_up();
+        self.summed.give_up();
+    }
+}
+
 /// What one byte takes on the wire.
 fn byte_ns(wire: WireTime, baud: u32) -> u64 {
     match wire {
@@ -314,6 +392,11 @@ impl Firmware for ServoBus {
 
     fn set_line_baud(&mut self, now_us: u64, baud: u32) {
         self.catch_up(now_us);
+        if baud == self.options.baud {
+            return;
+        }
+        self.receivers.give_up();
+        self.wire.spoil(self.reached_ns);
         self.options.baud = baud.max(1);
         self.wire.byte_ns = byte_ns(self.options.wire, baud);
     }

@@ -1,13 +1,16 @@
-//! Instructions that several servos answer one after the other: broadcast ping, sync, bulk and fast reads.
+//! Instructions that several servos answer one after the other: pings to all, sync, bulk and fast reads.
 //!
 //! Each servo measures when its turn has come and answers after its Return Delay Time; of a fast read only
 //! the first servo pays it. What happens behind a servo that does not answer is not documented for a plain
-//! read ("in order" is all the page says), so both readings are here; a fast read is one packet and ends.
+//! read ("in order" is all the page says), so both readings are here; a fast read is one packet and ends; in a
+//! bulk read of protocol 1.0 each servo waits for the one before.
 
 use super::bus::ServoBus;
-use super::crc;
-use super::packet::{self, ALERT, BROADCAST, HEADER, STATUS, instruction};
-use super::table::Reg;
+use super::dispatch::write_status;
+use super::dynamixel2::crc;
+use super::dynamixel2::packet::{HEADER, STATUS};
+use super::heard::{BROADCAST, Framing, Order};
+use super::servo::Servo;
 
 /// What servos do when the one before them in a sync or bulk read does not answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,6 +22,17 @@ pub enum Absent {
     GoOnAfter(u32),
 }
 
+/// What is being answered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Kind {
+    #[default]
+    Ping,
+    SyncRead,
+    BulkRead,
+    /// Sync or bulk, all in one packet.
+    FastRead,
+}
+
 /// One answer expected: of whom, and which bytes.
 #[derive(Clone, Copy, Debug)]
 struct Turn {
@@ -28,9 +42,10 @@ struct Turn {
 }
 
 /// A read being answered.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Chain {
-    code: u8,
+    kind: Kind,
+    framing: Framing,
     turns: Vec<Turn>,
     next: usize,
     at_ns: u64,
@@ -38,6 +53,17 @@ pub(super) struct Chain {
 }
 
 impl Chain {
+    pub(super) fn new() -> Self {
+        Self {
+            kind: Kind::default(),
+            framing: Framing::Dynamixel2,
+            turns: Vec::new(),
+            next: 0,
+            at_ns: 0,
+            crc: 0,
+        }
+    }
+
     /// When the next servo's turn comes.
     pub(super) fn next_ns(&self) -> Option<u64> {
         (self.next < self.turns.len()).then_some(self.at_ns)
@@ -49,15 +75,16 @@ impl Chain {
         self.next = 0;
     }
 
-    fn start(&mut self, code: u8, at_ns: u64) {
+    fn start(&mut self, kind: Kind, framing: Framing, at_ns: u64) {
         self.stop();
-        self.code = code;
+        self.kind = kind;
+        self.framing = framing;
         self.at_ns = at_ns;
     }
 
-    /// A broadcast ping: every servo of `ids`, which are in order.
-    pub(super) fn ping(&mut self, at_ns: u64, ids: impl Iterator<Item = u8>) {
-        self.start(instruction::PING, at_ns);
+    /// A ping to all: those of `ids`, in their order.
+    pub(super) fn ping(&mut self, at_ns: u64, framing: Framing, ids: impl Iterator<Item = u8>) {
+        self.start(Kind::Ping, framing, at_ns);
         self.turns.extend(ids.map(|id| Turn {
             id,
             address: 0,
@@ -67,9 +94,46 @@ impl Chain {
         self.turns.dedup_by_key(|turn| turn.id);
     }
 
-    /// A sync read, plain or fast.
-    pub(super) fn sync(&mut self, at_ns: u64, code: u8, params: &[u8]) {
-        self.start(code, at_ns);
+    pub(super) fn sync_read(&mut self, at_ns: u64, params: &[u8]) {
+        self.start(Kind::SyncRead, Framing::Dynamixel2, at_ns);
+        self.take_sync(params);
+    }
+
+    pub(super) fn fast_sync_read(&mut self, at_ns: u64, params: &[u8]) {
+        self.start(Kind::FastRead, Framing::Dynamixel2, at_ns);
+        self.take_sync(params);
+    }
+
+    pub(super) fn bulk_read(&mut self, at_ns: u64, params: &[u8]) {
+        self.start(Kind::BulkRead, Framing::Dynamixel2, at_ns);
+        self.take_bulk(params);
+    }
+
+    pub(super) fn fast_bulk_read(&mut self, at_ns: u64, params: &[u8]) {
+        self.start(Kind::FastRead, Framing::Dynamixel2, at_ns);
+        self.take_bulk(params);
+    }
+
+    /// Feetech's sync read: one byte of address, one of length.
+    pub(super) fn summed_sync_read(&mut self, at_ns: u64, address: u16, length: u16, ids: &[u8]) {
+        self.start(Kind::SyncRead, Framing::Summed, at_ns);
+        self.turns
+            .extend(ids.iter().map(|&id| Turn { id, address, length }));
+    }
+
+    /// The bulk read of protocol 1.0: length, number and address of each.
+    pub(super) fn summed_bulk_read(&mut self, at_ns: u64, blocks: &[u8]) {
+        self.start(Kind::BulkRead, Framing::Summed, at_ns);
+        for &[length, id, address] in blocks.as_chunks().0 {
+            self.take_once(Turn {
+                id,
+                address: address.into(),
+                length: length.into(),
+            });
+        }
+    }
+
+    fn take_sync(&mut self, params: &[u8]) {
         let &[a, b, c, d, ref ids @ ..] = params else {
             return;
         };
@@ -78,22 +142,18 @@ impl Chain {
             .extend(ids.iter().map(|&id| Turn { id, address, length }));
     }
 
-    /// A bulk read, plain or fast; a servo named twice answers once.
-    pub(super) fn bulk(&mut self, at_ns: u64, code: u8, params: &[u8]) {
-        self.start(code, at_ns);
+    fn take_bulk(&mut self, params: &[u8]) {
         for &[id, a, b, c, d] in params.as_chunks().0 {
-            if !self.turns.iter().any(|turn| turn.id == id) {
-                let (address, length) = (u16::from_le_bytes([a, b]), u16::from_le_bytes([c, d]));
-                self.turns.push(Turn { id, address, length });
-            }
+            let (address, length) = (u16::from_le_bytes([a, b]), u16::from_le_bytes([c, d]));
+            self.take_once(Turn { id, address, length });
         }
     }
 
-    fn is_fast(&self) -> bool {
-        matches!(
-            self.code,
-            instruction::FAST_SYNC_READ | instruction::FAST_BULK_READ
-        )
+    /// A servo named twice answers once.
+    fn take_once(&mut self, turn: Turn) {
+        if !self.turns.iter().any(|other| other.id == turn.id) {
+            self.turns.push(turn);
+        }
     }
 
     /// LEN of the one packet of a fast read: instruction, then per servo error, id, data and checksum.
@@ -101,6 +161,26 @@ impl Chain {
         self.turns.iter().fold(1, |length: u16, turn| {
             length.saturating_add(turn.length.saturating_add(4))
         })
+    }
+
+    /// Whether those behind a servo that did not answer have their turn all the same.
+    fn goes_on(&self) -> bool {
+        match self.kind {
+            Kind::Ping | Kind::SyncRead => true,
+            Kind::BulkRead => self.framing == Framing::Dynamixel2,
+            Kind::FastRead => false,
+        }
+    }
+}
+
+impl Servo {
+    fn takes_part(&self, kind: Kind) -> bool {
+        match kind {
+            Kind::Ping => self.facts.broadcast_ping,
+            Kind::SyncRead => self.facts.sync_read && self.answers_group_reads(),
+            Kind::BulkRead => self.facts.bulk_read && self.answers_group_reads(),
+            Kind::FastRead => self.reads_fast() && self.answers_group_reads(),
+        }
     }
 }
 
@@ -110,47 +190,45 @@ impl ServoBus {
         let Some(&turn) = self.chain.turns.get(self.chain.next) else {
             return;
         };
-        let (code, at_ns, fast) = (self.chain.code, self.chain.at_ns, self.chain.is_fast());
+        let (kind, framing, at_ns) = (self.chain.kind, self.chain.framing, self.chain.at_ns);
+        let fast = kind == Kind::FastRead;
         let first = self.chain.next == 0;
         self.chain.next += 1;
         self.begin_answer();
         for place in 0..self.servos.len() {
             let servo = &mut self.servos[place];
             let may = servo.id() == turn.id
+                && servo.framing() == framing
                 && servo.hears(at_ns, self.options.baud)
-                && servo.answers(code)
-                && !servo.silent
-                && (!fast || servo.reads_fast());
+                && servo.takes_part(kind)
+                && !servo.silent;
             if !may {
                 continue;
             }
             servo.advance(at_ns);
             self.answer_params.clear();
-            let error = if code == instruction::PING {
-                servo
-                    .execute(at_ns, code, &[], true, &mut self.answer_params)
-                    .error
-            } else {
-                servo.read(at_ns, turn.address, turn.length, &mut self.answer_params)
+            let order = match kind {
+                Kind::Ping => Order::Ping,
+                _ => Order::Read {
+                    address: turn.address,
+                    length: turn.length,
+                },
             };
-            let alert = if servo.table.get(Reg::HardwareErrorStatus) != 0 {
-                ALERT
-            } else {
-                0
-            };
+            let done = servo.execute(at_ns, order, true, &mut self.answer_params);
+            let error = servo.error_byte(done.refusal);
             let delay_ns = if fast && !first { 0 } else { servo.delay_ns() };
             self.one_answer.clear();
             if fast {
-                self.fast_block(turn, first, error | alert);
+                self.fast_block(turn, first, error);
             } else {
-                packet::status(turn.id, error | alert, &self.answer_params, &mut self.one_answer);
+                write_status(framing, turn.id, error, &self.answer_params, &mut self.one_answer);
             }
             self.add_answer(delay_ns);
         }
         match self.finish_answer(turn.id, at_ns) {
             Some(end_ns) => self.chain.at_ns = end_ns,
             None => match self.options.absent {
-                Absent::GoOnAfter(us) if !fast => self.chain.at_ns += u64::from(us) * 1000,
+                Absent::GoOnAfter(us) if self.chain.goes_on() => self.chain.at_ns += u64::from(us) * 1000,
                 _ => self.chain.stop(),
             },
         }

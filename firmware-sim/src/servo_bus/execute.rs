@@ -1,16 +1,13 @@
-//! What an instruction does to one servo, and what it answers.
+//! What an order does to one servo, and what it answers.
 //!
-//! Source: the maker's protocol 2.0 page, "Instruction Details".
+//! Source: the maker's protocol pages, "Instruction Details"; Feetech's published libraries.
 
-use super::packet::{error, instruction};
+use super::heard::{Class, Order, Refusal, Scope};
+use super::reg::Reg;
 use super::servo::Servo;
-use super::table::{Reg, load};
-use device_profiles::Area;
+use super::{dynamixel2, summed};
+use device_profiles::{Area, ServoProtocol};
 
-/// Guards against clearing by accident: `01` and "DXL\"" in the maker's page.
-const CLEAR_TURNS: [u8; 5] = [0x01, 0x44, 0x58, 0x4C, 0x22];
-/// Follows the choice in Control Table Backup: "CTRL".
-const BACKUP_WORD: [u8; 4] = [0x43, 0x54, 0x52, 0x4C];
 /// First firmware in which a broadcast Factory Reset of everything is ignored.
 const GUARDED_RESET_FROM: u8 = 42;
 /// RAM that Startup Configuration bit 1 brings back from a backup.
@@ -34,179 +31,187 @@ pub(super) enum After {
     Reboot,
 }
 
-/// An error number or 0, and what follows.
+/// Whether it was refused, and what follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Done {
-    pub(super) error: u8,
+    pub(super) refusal: Option<Refusal>,
     pub(super) after: After,
 }
 
-impl From<u8> for Done {
-    fn from(error: u8) -> Self {
+impl From<Option<Refusal>> for Done {
+    fn from(refusal: Option<Refusal>) -> Self {
         Self {
-            error,
+            refusal,
             after: After::Nothing,
         }
     }
 }
 
+impl From<Refusal> for Done {
+    fn from(refusal: Refusal) -> Self {
+        Some(refusal).into()
+    }
+}
+
+/// Obeyed, and starts over.
+const REBOOTS: Done = Done {
+    refusal: None,
+    after: After::Reboot,
+};
+
 impl Servo {
-    /// Carries out `code` with `params`; parameters of the answer go to `answer`.
+    /// Carries out `order`; parameters of the answer go to `answer`.
     pub(super) fn execute(
         &mut self,
         at_ns: u64,
-        code: u8,
-        params: &[u8],
+        order: Order<'_>,
         broadcast: bool,
         answer: &mut Vec<u8>,
     ) -> Done {
-        match (code, params) {
-            (instruction::PING, _) => {
-                answer.extend_from_slice(&(self.table.get(Reg::ModelNumber) as u16).to_le_bytes());
-                answer.push(self.firmware());
-                0.into()
+        match order {
+            Order::Ping => {
+                if self.facts.protocol == ServoProtocol::Dynamixel2 {
+                    answer.extend_from_slice(&(self.table.get(Reg::ModelNumber) as u16).to_le_bytes());
+                    answer.push(self.firmware());
+                }
+                None.into()
             }
-            (instruction::READ, &[a, b, c, d]) => self
-                .read(
-                    at_ns,
-                    u16::from_le_bytes([a, b]),
-                    u16::from_le_bytes([c, d]),
-                    answer,
-                )
-                .into(),
-            (instruction::WRITE, &[a, b, ref bytes @ ..]) => {
-                self.write(at_ns, u16::from_le_bytes([a, b]), bytes).into()
+            Order::Read { address, length } => self.read(at_ns, address, length, answer).into(),
+            Order::Write { address, bytes } => self.write(at_ns, address, bytes).into(),
+            Order::Register { address, bytes } => self.register_write(address, bytes).into(),
+            Order::Action => self.act(at_ns).into(),
+            Order::FactoryReset(scope) => self.factory_reset(scope, broadcast),
+            Order::Reboot => REBOOTS,
+            Order::ClearTurns => self.clear_turns().into(),
+            Order::Backup => self.back_up().into(),
+            Order::Restore => self.restore_backup(),
+            Order::Calibrate(counts) => {
+                self.calibrate(counts.into());
+                None.into()
             }
-            (instruction::REG_WRITE, &[a, b, ref bytes @ ..]) => self
-                .register_write(u16::from_le_bytes([a, b]), bytes, params)
-                .into(),
-            (instruction::ACTION, []) => self.act(at_ns).into(),
-            (instruction::FACTORY_RESET, &[scope]) => self.factory_reset(scope, broadcast),
-            (instruction::REBOOT, []) => Done {
-                error: 0,
-                after: After::Reboot,
-            },
-            (instruction::CLEAR, _) => self.clear_turns(params).into(),
-            (instruction::BACKUP, &[choice, ref word @ ..]) => self.back_up(choice, word),
-            (
-                instruction::READ
-                | instruction::WRITE
-                | instruction::REG_WRITE
-                | instruction::ACTION
-                | instruction::FACTORY_RESET
-                | instruction::REBOOT
-                | instruction::BACKUP,
-                _,
-            ) => error::DATA_LENGTH.into(),
-            _ => error::INSTRUCTION.into(),
+            Order::Malformed => Refusal::Length.into(),
+            Order::Refused => Refusal::Range.into(),
+            Order::Unknown => Refusal::Instruction.into(),
         }
     }
 
-    /// Whether it answers `code` at its Status Return Level.
-    pub(super) fn answers(&self, code: u8) -> bool {
-        match code {
-            instruction::PING => true,
-            instruction::READ
-            | instruction::SYNC_READ
-            | instruction::BULK_READ
-            | instruction::FAST_SYNC_READ
-            | instruction::FAST_BULK_READ => self.table.get(Reg::StatusReturnLevel) >= 1,
-            _ => self.table.get(Reg::StatusReturnLevel) >= 2,
+    /// Whether it answers `order` at its Status Return Level. Feetech's level 0 still answers reads, and what it
+    /// does not know, and a reboot, it never answers.
+    pub(super) fn answers(&self, order: &Order<'_>) -> bool {
+        let level = self.table.get(Reg::StatusReturnLevel);
+        match (order, order.class()) {
+            (Order::Malformed | Order::Refused | Order::Unknown | Order::Reboot, _) if self.is_feetech() => {
+                false
+            }
+            (_, Class::Ping) => true,
+            (_, Class::Read) => self.is_feetech() || level >= 1,
+            (_, Class::Other) => level >= if self.is_feetech() { 1 } else { 2 },
         }
     }
 
-    fn register_write(&mut self, address: u16, bytes: &[u8], params: &[u8]) -> u8 {
-        let error = self.check_write(address, bytes);
-        if error == 0 {
-            self.registered.clear();
-            self.registered.extend_from_slice(params);
+    /// Whether it answers reads among others at its Status Return Level.
+    pub(super) fn answers_group_reads(&self) -> bool {
+        self.answers(&Order::Read {
+            address: 0,
+            length: 0,
+        })
+    }
+
+    /// The error byte of an answer.
+    pub(super) fn error_byte(&self, refusal: Option<Refusal>) -> u8 {
+        match self.facts.protocol {
+            ServoProtocol::Dynamixel2 => {
+                let alert = if self.alarms() == 0 {
+                    0
+                } else {
+                    dynamixel2::packet::ALERT
+                };
+                dynamixel2::packet::error_number(refusal) | alert
+            }
+            ServoProtocol::Dynamixel1 => summed::packet::error_bits(refusal, self.alarms()),
+            // They tell of the servo only: a write that did nothing is answered like one that did.
+            ServoProtocol::Sts | ServoProtocol::Scs => self.alarms(),
+        }
+    }
+
+    fn register_write(&mut self, address: u16, bytes: &[u8]) -> Option<Refusal> {
+        let refusal = self.check_write(address, bytes);
+        if refusal.is_none() {
+            self.registered = Some((address, bytes.to_vec()));
             self.table.set(Reg::RegisteredInstruction, 1);
         } else {
             self.counters.refused_writes += 1;
         }
-        error
+        refusal
     }
 
-    fn act(&mut self, at_ns: u64) -> u8 {
-        let registered = std::mem::take(&mut self.registered);
+    fn act(&mut self, at_ns: u64) -> Option<Refusal> {
         self.table.set(Reg::RegisteredInstruction, 0);
-        match registered.as_slice() {
-            &[a, b, ref bytes @ ..] => self.write(at_ns, u16::from_le_bytes([a, b]), bytes),
-            _ => error::INSTRUCTION,
+        match self.registered.take() {
+            Some((address, bytes)) => self.write(at_ns, address, &bytes),
+            None => Some(Refusal::Instruction),
         }
     }
 
-    fn factory_reset(&mut self, scope: u8, broadcast: bool) -> Done {
-        let (keeps_id, keeps_baud) = match scope {
-            0xFF => (false, false),
-            0x01 => (true, false),
-            0x02 => (true, true),
-            _ => return error::DATA_RANGE.into(),
-        };
-        if broadcast && !keeps_id && self.firmware() >= GUARDED_RESET_FROM {
-            return 0.into();
+    fn factory_reset(&mut self, scope: Scope, broadcast: bool) -> Done {
+        let is_guarded =
+            self.facts.protocol == ServoProtocol::Dynamixel2 && self.firmware() >= GUARDED_RESET_FROM;
+        if broadcast && scope == Scope::All && is_guarded {
+            return None.into();
         }
         let kept = [Reg::ModelNumber, Reg::FirmwareVersion, Reg::Id, Reg::BaudRate]
             .map(|reg| (reg, self.table.get(reg)));
         self.table.start_values(Area::Eeprom);
         for (reg, value) in kept {
             let keeps = match reg {
-                Reg::Id => keeps_id,
-                Reg::BaudRate => keeps_baud,
+                Reg::Id => scope != Scope::All,
+                Reg::BaudRate => scope == Scope::KeepIdAndBaud,
                 _ => true,
             };
             if keeps {
                 self.table.set(reg, value);
             }
         }
-        Done {
-            error: 0,
-            after: After::Reboot,
-        }
+        self.counters.eeprom_writes += 1;
+        self.table.keep();
+        REBOOTS
     }
 
-    fn clear_turns(&mut self, params: &[u8]) -> u8 {
-        if params != CLEAR_TURNS {
-            return error::DATA_RANGE;
-        }
+    fn clear_turns(&mut self) -> Option<Refusal> {
         if self.fresh(Reg::Moving, self.stepped_ns) == Some(1) {
-            return error::RESULT_FAIL;
+            return Some(Refusal::Fail);
         }
-        self.plant
-            .recount(self.plant.position.rem_euclid(self.facts.counts_per_turn));
-        self.rest();
+        self.forget_turns();
         self.table.set(Reg::GoalPosition, self.present_counts());
-        0
+        None
     }
 
-    /// Documented for the firmware versions that also read fast: 45 in X430, 46 in X330.
-    fn back_up(&mut self, choice: u8, word: &[u8]) -> Done {
+    /// Documented for the DYNAMIXEL firmware that also reads fast (45 in X430, 46 in X330), and of Feetech.
+    fn back_up(&mut self) -> Option<Refusal> {
+        if !self.is_feetech() {
+            if !self.reads_fast() {
+                return Some(Refusal::Instruction);
+            }
+            if self.torque_is_on() {
+                return Some(Refusal::Fail);
+            }
+        }
+        self.backup = self.table.memory().to_vec();
+        self.table.set(Reg::BackupReady, 1);
+        None
+    }
+
+    fn restore_backup(&mut self) -> Done {
         if !self.reads_fast() {
-            return error::INSTRUCTION.into();
+            return Refusal::Instruction.into();
         }
-        if word != BACKUP_WORD {
-            return error::DATA_RANGE.into();
+        if self.torque_is_on() || self.backup.is_empty() {
+            return Refusal::Fail.into();
         }
-        if self.torque_is_on() {
-            return error::RESULT_FAIL.into();
-        }
-        match choice {
-            1 => {
-                self.backup = self.table.memory().to_vec();
-                self.table.set(Reg::BackupReady, 1);
-                0.into()
-            }
-            2 if self.backup.is_empty() => error::RESULT_FAIL.into(),
-            2 => {
-                let eeprom = self.table.eeprom_bytes();
-                self.table.memory_mut()[..eeprom].copy_from_slice(&self.backup[..eeprom]);
-                Done {
-                    error: 0,
-                    after: After::Reboot,
-                }
-            }
-            _ => error::DATA_RANGE.into(),
-        }
+        let eeprom = self.table.eeprom_bytes();
+        self.table.restore(&self.backup[..eeprom]);
+        self.counters.eeprom_writes += 1;
+        REBOOTS
     }
 
     /// Startup Configuration bit 1: RAM settings come back from the backup.
@@ -217,7 +222,9 @@ impl Servo {
         for &reg in KEPT_IN_RAM {
             let Some(row) = self.table.row(reg) else { continue };
             let at = usize::from(row.address);
-            let value = load(&self.backup[at..at + usize::from(row.size)], row.signed);
+            let value = self
+                .table
+                .decode(row, &self.backup[at..at + usize::from(row.size)]);
             self.table.set(reg, value);
         }
     }

@@ -2,8 +2,8 @@
 //!
 //! Source: the maker's control table pages, "Hardware Error Status", "Shutdown".
 
+use super::reg::Reg;
 use super::servo::Servo;
-use super::table::Reg;
 
 /// How long full effort lasts before it counts as overload. Ours; the maker says "a certain time".
 const OVERLOAD_STEPS: u32 = 1000;

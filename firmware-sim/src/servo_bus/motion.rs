@@ -1,9 +1,9 @@
 //! From what the goal registers ask for to a planned path.
 
-use super::goal::{Demand, mode};
+use super::goal::{Demand, Mode};
 use super::plant::{Gains, Order, STEP_SECS};
+use super::reg::Reg;
 use super::servo::Servo;
-use super::table::Reg;
 use super::trajectory::{Plan, State};
 
 impl Servo {
@@ -18,22 +18,18 @@ impl Servo {
         let (state, _) = self.trajectory(self.stepped_ns);
         let counts = state.position;
         let sign = if self.is_reversed() { -1.0 } else { 1.0 };
-        let share = |goal: Reg, full: Reg| {
-            let full = self.table.row(full).and_then(|row| row.init).unwrap_or(1).max(1);
-            sign * self.table.get(goal) as f64 / full as f64
-        };
-        match self.table.get(Reg::OperatingMode) {
-            mode::VELOCITY => Order::Speed {
+        match self.mode() {
+            Mode::Velocity => Order::Speed {
                 counts,
                 velocity: state.velocity,
             },
-            mode::CURRENT => Order::Current {
+            Mode::Current => Order::Current {
                 counts,
-                share: share(Reg::GoalCurrent, Reg::CurrentLimit),
+                share: sign * self.goal_share(),
             },
-            mode::PWM => Order::Duty {
+            Mode::Effort => Order::Duty {
                 counts,
-                share: share(Reg::GoalPwm, Reg::PwmLimit),
+                share: sign * self.goal_share(),
             },
             _ => Order::Position {
                 counts,
@@ -58,7 +54,7 @@ impl Servo {
                 .filter(|&init| init > 0);
             full.map_or(1.0, |full| (gain(reg) / full as f64).clamp(0.0, 1.0))
         };
-        let duty_max = limit(Reg::PwmLimit);
+        let duty_max = limit(Reg::TorqueLimit);
         if wide {
             Gains {
                 p: gain(Reg::PositionPGain) / 128.0 / 885.0,

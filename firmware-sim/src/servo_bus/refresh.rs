@@ -1,7 +1,7 @@
 //! Registers that are measured, not stored: brought up to date when they are read.
 
+use super::reg::Reg;
 use super::servo::Servo;
-use super::table::Reg;
 use super::trajectory::Kind;
 
 /// Largest difference between trajectory and shaft that is not a following error, counts. Ours: twice the

@@ -1,18 +1,22 @@
 //! One servo: its table, its motor, its own sense of time, and what happens to it without being told.
 //!
 //! A servo advances on a fixed grid of plant steps, so that it comes to the same state however often it is
-//! looked at. Source: the maker's control table pages for the XL330-M288 and XL430-W250.
+//! looked at. Source: the makers' control table pages, through the profile.
 
 use super::hardware::Supply;
+use super::heard::Framing;
 use super::plant::{MotorFacts, Plant, Printed, STEP_NS, STEP_SECS};
-use super::table::{Reg, Table};
+use super::reg::Reg;
+use super::table::Table;
 use super::trajectory::Plan;
 use super::trouble::Trouble;
 use super::unit::{Counters, Sag, Unit};
-use device_profiles::{Area, ServoProfile};
+use device_profiles::{Role, ServoProfile, ServoProtocol};
 
-/// From power or reboot to answering. Ours; the maker gives no time.
+/// From power or reboot to answering. Ours; ROBOTIS gives no time.
 const BOOT_NS: u64 = 250_000_000;
+/// The same of a Feetech servo. Source: `docs/protocols/feetech.md`, "Reboot".
+const FEETECH_BOOT_NS: u64 = 800_000_000;
 /// Unit of Bus Watchdog.
 const WATCHDOG_NS: u64 = 20_000_000;
 /// What Bus Watchdog holds when it has run out.
@@ -21,16 +25,27 @@ const WATCHDOG_TRIPPED: i64 = -1;
 /// Constant facts taken from the profile once.
 #[derive(Clone, Debug)]
 pub(super) struct Facts {
+    pub(super) model: String,
+    pub(super) protocol: ServoProtocol,
     pub(super) counts_per_turn: f64,
     pub(super) centre: f64,
     pub(super) rad_per_count: f64,
+    /// Ends of what the encoder sees, where that is less than a turn.
+    pub(super) partial: Option<[f64; 2]>,
     /// Counts per second for one count of a velocity register.
     pub(super) speed_unit: f64,
-    /// Counts per second squared for one count of Profile Acceleration.
+    /// Counts per second squared for one count of the acceleration register.
     pub(super) acceleration_unit: f64,
-    pub(super) bauds: Vec<u32>,
+    /// Top speed without load, counts per second.
+    pub(super) speed_max: f64,
+    /// Line speed for each value of the register.
+    pub(super) bauds: Vec<(i64, u32)>,
     pub(super) watchdog_from: Option<u8>,
     pub(super) fast_read_from: Option<u8>,
+    pub(super) sync_read: bool,
+    pub(super) bulk_read: bool,
+    pub(super) broadcast_ping: bool,
+    pub(super) eeprom_deaf_ns_per_byte: u64,
 }
 
 /// A servo on the bus.
@@ -43,7 +58,7 @@ pub struct Servo {
     pub(super) plan: Plan,
     pub(super) plan_from_ns: u64,
     pub(super) counters: Counters,
-    pub(super) registered: Vec<u8>,
+    pub(super) registered: Option<(u16, Vec<u8>)>,
     pub(super) backup: Vec<u8>,
     pub(super) stepped_ns: u64,
     pub(super) last_heard_ns: u64,
@@ -51,6 +66,12 @@ pub struct Servo {
     pub(super) supply: Supply,
     pub(super) silent: bool,
     alarms: u8,
+    /// Bytes of EEPROM written by the instruction in hand.
+    pub(super) eeprom_bytes_written: u64,
+    /// Still busy with its EEPROM.
+    deaf_until_ns: u64,
+    /// Where relative moves have led to, counts.
+    pub(super) step_goal: f64,
     pub(super) booting_until_ns: u64,
     booted_ns: u64,
     /// Latched until reboot: Shutdown took the torque away.
@@ -62,9 +83,11 @@ pub struct Servo {
 
 impl Servo {
     pub(super) fn new(profile: &ServoProfile, unit: Unit, bus_baud: u32) -> Self {
+        let firmware = unit.firmware.unwrap_or(profile.firmware);
+        let profile = &*profile.at_firmware(firmware);
         let facts = Facts::of(profile);
         let table = Table::new(profile);
-        let motor = motor_of(profile, &table, &facts);
+        let motor = motor_of(profile, &facts);
         let position = facts.centre + unit.start_rad / facts.rad_per_count;
         let mut servo = Self {
             supply: Supply {
@@ -79,7 +102,10 @@ impl Servo {
             plan: Plan::rest(position),
             plan_from_ns: 0,
             counters: Counters::default(),
-            registered: Vec::new(),
+            registered: None,
+            eeprom_bytes_written: 0,
+            deaf_until_ns: 0,
+            step_goal: position,
             backup: Vec::new(),
             stepped_ns: 0,
             last_heard_ns: 0,
@@ -97,10 +123,7 @@ impl Servo {
         servo.supply.volts = servo.nominal_volts();
         servo.set_stops(servo.unit.stops_rad);
         servo.table.set(Reg::ModelNumber, i64::from(profile.model_number));
-        servo.table.set(
-            Reg::FirmwareVersion,
-            i64::from(servo.unit.firmware.unwrap_or(profile.firmware)),
-        );
+        servo.table.set(Reg::FirmwareVersion, i64::from(firmware));
         servo.table.set(Reg::Id, i64::from(servo.unit.id));
         servo.set_baud(servo.unit.baud.unwrap_or(bus_baud));
         if let Some(delay_us) = servo.unit.return_delay_us {
@@ -108,31 +131,32 @@ impl Servo {
                 .table
                 .set(Reg::ReturnDelayTime, i64::from(delay_us / 2).min(254));
         }
-        servo.start_ram(0);
+        servo.table.keep();
+        servo.start(0);
         servo
     }
 
     fn set_baud(&mut self, baud: u32) {
-        if let Some(code) = self.facts.bauds.iter().position(|&known| known == baud) {
-            self.table.set(Reg::BaudRate, code as i64);
+        let code = self.facts.bauds.iter().find(|&&(_, known)| known == baud);
+        if let Some(&(code, _)) = code {
+            self.table.set(Reg::BaudRate, code);
         }
     }
 
-    /// Everything a fresh start does to RAM and motion; the shaft stays where it is.
-    pub(super) fn start_ram(&mut self, at_ns: u64) {
-        self.table.start_values(Area::Ram);
-        self.registered.clear();
+    /// Everything a fresh start does to memory and motion; the shaft stays where it is.
+    pub(super) fn start(&mut self, at_ns: u64) {
+        self.table.wake();
+        self.registered = None;
+        self.set_alarms(0);
         self.shut_down = false;
         self.strained_steps = 0;
         self.booted_ns = at_ns;
         self.last_heard_ns = at_ns;
         // Turns are lost at power off: the encoder knows one turn only.
-        self.plant
-            .recount(self.plant.position.rem_euclid(self.facts.counts_per_turn));
-        self.rest();
+        self.forget_turns();
         self.table
             .set(Reg::BackupReady, i64::from(!self.backup.is_empty()));
-        self.table.set(Reg::GoalPwm, self.table.get(Reg::PwmLimit));
+        self.table.set(Reg::GoalTorque, self.table.get(Reg::TorqueLimit));
         self.table
             .set(Reg::GoalCurrent, self.table.get(Reg::CurrentLimit));
         self.table.set(Reg::GoalPosition, self.present_counts());
@@ -144,14 +168,25 @@ impl Servo {
         }
     }
 
+    /// Counts on from within one turn.
+    pub(super) fn forget_turns(&mut self) {
+        self.plant
+            .recount(self.plant.position.rem_euclid(self.facts.counts_per_turn));
+        self.rest();
+    }
+
     /// Stops answering and starts over, as after an instruction to reboot or a new supply.
     pub(super) fn reboot(&mut self, at_ns: u64) {
         self.advance(at_ns);
         self.counters.reboots += 1;
         self.table.set(Reg::TorqueEnable, 0);
-        self.set_alarms(0);
-        self.booting_until_ns = at_ns + BOOT_NS;
-        self.start_ram(at_ns);
+        let boot_ns = if self.is_feetech() {
+            FEETECH_BOOT_NS
+        } else {
+            BOOT_NS
+        };
+        self.booting_until_ns = at_ns + boot_ns;
+        self.start(at_ns);
     }
 
     /// Plant steps up to `to_ns`, on the grid that began at zero.
@@ -234,12 +269,13 @@ impl Servo {
         crate::line::shortened(own_ns, self.unit.drift_ppm)
     }
 
-    /// Whether it hears a bus at `baud` at `at_ns`: connected, awake, and within three per cent of its speed.
-    pub(super) fn hears(&self, at_ns: u64, baud: u32) -> bool {
+    /// Whether it hears what began at `began_ns` on a bus at `baud`: connected, awake from the first byte on, and
+    /// within three per cent of its speed.
+    pub(super) fn hears(&self, began_ns: u64, baud: u32) -> bool {
         self.supply.is_on()
             && self.supply.data
             && !self.trouble.deaf
-            && at_ns >= self.booting_until_ns
+            && began_ns >= self.booting_until_ns.max(self.deaf_until_ns)
             && self.baud().is_some_and(|own| self.understands(own, baud))
     }
 
@@ -253,10 +289,28 @@ impl Servo {
         if self.trouble.odd_baud.is_some() {
             return self.trouble.odd_baud;
         }
-        self.facts
-            .bauds
-            .get(self.table.get(Reg::BaudRate) as usize)
-            .copied()
+        let code = self.table.get(Reg::BaudRate);
+        let found = self.facts.bauds.iter().find(|&&(known, _)| known == code);
+        found.map(|&(_, baud)| baud)
+    }
+
+    /// Its instruction was answered at `at_ns`; if that wrote to the EEPROM it may now be busy with it.
+    pub(super) fn finish_instruction(&mut self, at_ns: u64) {
+        let busy_ns = self.facts.eeprom_deaf_ns_per_byte * std::mem::take(&mut self.eeprom_bytes_written);
+        if busy_ns > 0 {
+            self.deaf_until_ns = at_ns + busy_ns;
+        }
+    }
+
+    pub(super) fn framing(&self) -> Framing {
+        match self.facts.protocol {
+            ServoProtocol::Dynamixel2 => Framing::Dynamixel2,
+            ServoProtocol::Dynamixel1 | ServoProtocol::Sts | ServoProtocol::Scs => Framing::Summed,
+        }
+    }
+
+    pub(super) fn is_feetech(&self) -> bool {
+        matches!(self.facts.protocol, ServoProtocol::Sts | ServoProtocol::Scs)
     }
 
     pub(super) fn firmware(&self) -> u8 {
@@ -267,29 +321,38 @@ impl Servo {
 impl Facts {
     fn of(profile: &ServoProfile) -> Self {
         let rad_per_count = profile.rad_per_count();
-        let unit = |name: &str| {
-            profile
-                .register(name)
-                .and_then(|row| row.unit_per_count)
-                .map_or(1.0, |si| si / rad_per_count)
+        let unit = |role: Role| {
+            let per_count = profile.role(role).and_then(|row| row.unit_per_count);
+            per_count.map_or(1.0, |si| si / rad_per_count)
         };
+        let speed_unit = unit(Role::PresentVelocity);
+        let acceleration = profile.move_acceleration().and_then(|row| row.unit_per_count);
+        let [low, high] = profile.position_counts.map(|count| count as f64);
+        let codes = (0..=u8::MAX).filter_map(|code| Some((i64::from(code), profile.baud_of_code(code)?)));
         Self {
+            model: profile.key.clone(),
+            protocol: profile.protocol,
             counts_per_turn: profile.counts_per_turn,
             centre: f64::from(profile.centre_counts),
             rad_per_count,
-            speed_unit: unit("Present Velocity"),
-            acceleration_unit: unit("Profile Acceleration"),
-            bauds: profile.bauds.clone(),
+            partial: (high - low + 2.0 < profile.counts_per_turn).then_some([low, high]),
+            speed_unit,
+            acceleration_unit: acceleration.map_or(1.0, |si| si / rad_per_count),
+            speed_max: speed_max_rad_per_s(profile, speed_unit * rad_per_count) / rad_per_count,
+            bauds: codes.collect(),
             watchdog_from: profile.bus_watchdog_from_firmware,
             fast_read_from: profile.fast_sync_read_from_firmware,
+            sync_read: profile.sync_read,
+            bulk_read: profile.bulk_read,
+            broadcast_ping: profile.broadcast_ping,
+            eeprom_deaf_ns_per_byte: u64::from(profile.eeprom_deaf_us_per_byte.unwrap_or(0)) * 1000,
         }
     }
 }
 
-/// The motor as its maker prints it. Of a model without such numbers only the speed is known: the factory's
-/// velocity limit is near it (61 rpm for the XL430, 103 for the XL330); the rest is that of a small servo.
-fn motor_of(profile: &ServoProfile, table: &Table, facts: &Facts) -> MotorFacts {
-    let limit = table.get(Reg::VelocityLimit).max(1) as f64;
+/// The motor as its maker prints it. Of a model without such numbers only the speed is known; the rest is that of a
+/// small servo.
+fn motor_of(profile: &ServoProfile, facts: &Facts) -> MotorFacts {
     MotorFacts::of(match &profile.motor {
         Some(motor) => Printed {
             stall_nm: motor.stall_torque_nm,
@@ -301,11 +364,22 @@ fn motor_of(profile: &ServoProfile, table: &Table, facts: &Facts) -> MotorFacts 
         },
         None => Printed {
             stall_nm: 1.0,
-            no_load_rad_per_s: limit * facts.speed_unit * facts.rad_per_count,
+            no_load_rad_per_s: facts.speed_max * facts.rad_per_count,
             volts: 12.0,
             stall_a: 1.3,
             standby_a: 0.05,
             inertia_kg_m2: None,
         },
     })
+}
+
+/// Speed without load: the factory's Velocity Limit is near it where there is one (61 rpm for the XL430, 103 for
+/// the XL330), else the motor's.
+fn speed_max_rad_per_s(profile: &ServoProfile, unit: f64) -> f64 {
+    let limit = profile.role(Role::VelocityLimit).and_then(|row| row.init);
+    match (limit, &profile.motor) {
+        (Some(counts), _) if counts > 0 => counts as f64 * unit,
+        (_, Some(motor)) => motor.no_load_speed_rad_per_s,
+        (_, None) => std::f64::consts::TAU,
+    }
 }

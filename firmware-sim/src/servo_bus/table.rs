@@ -1,71 +1,12 @@
 //! A control table: the servo's memory, and what each byte of it is.
 //!
 //! The rows come from the servo's profile; indirect data bytes stand for the bytes their addresses name.
+//! EEPROM has a second copy, the one that is still there after power was off: a locked servo obeys a write
+//! but does not keep it.
 
-use device_profiles::{Access, Area, Register, Role, ServoProfile};
-
-/// Registers the firmware itself works with, by their names in the maker's table.
-macro_rules! known_registers {
-    ($($variant:ident = $name:literal),* $(,)?) => {
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub(super) enum Reg { $($variant),* }
-        impl Reg {
-            const ALL: &[(Reg, &str)] = &[$((Reg::$variant, $name)),*];
-        }
-    };
-}
-
-known_registers! {
-    ModelNumber = "Model Number",
-    FirmwareVersion = "Firmware Version",
-    Id = "ID",
-    BaudRate = "Baud Rate",
-    ReturnDelayTime = "Return Delay Time",
-    DriveMode = "Drive Mode",
-    OperatingMode = "Operating Mode",
-    ShadowId = "Secondary(Shadow) ID",
-    HomingOffset = "Homing Offset",
-    MovingThreshold = "Moving Threshold",
-    TemperatureLimit = "Temperature Limit",
-    MaxVoltageLimit = "Max Voltage Limit",
-    MinVoltageLimit = "Min Voltage Limit",
-    PwmLimit = "PWM Limit",
-    CurrentLimit = "Current Limit",
-    VelocityLimit = "Velocity Limit",
-    StartupConfiguration = "Startup Configuration",
-    Shutdown = "Shutdown",
-    TorqueEnable = "Torque Enable",
-    StatusReturnLevel = "Status Return Level",
-    RegisteredInstruction = "Registered Instruction",
-    HardwareErrorStatus = "Hardware Error Status",
-    VelocityIGain = "Velocity I Gain",
-    VelocityPGain = "Velocity P Gain",
-    PositionDGain = "Position D Gain",
-    PositionIGain = "Position I Gain",
-    PositionPGain = "Position P Gain",
-    FeedforwardSecond = "Feedforward 2nd Gain",
-    FeedforwardFirst = "Feedforward 1st Gain",
-    BusWatchdog = "Bus Watchdog",
-    GoalPwm = "Goal PWM",
-    GoalCurrent = "Goal Current",
-    GoalVelocity = "Goal Velocity",
-    ProfileAcceleration = "Profile Acceleration",
-    ProfileVelocity = "Profile Velocity",
-    GoalPosition = "Goal Position",
-    RealtimeTick = "Realtime Tick",
-    Moving = "Moving",
-    MovingStatus = "Moving Status",
-    PresentPwm = "Present PWM",
-    PresentCurrent = "Present Current",
-    PresentLoad = "Present Load",
-    PresentVelocity = "Present Velocity",
-    PresentPosition = "Present Position",
-    VelocityTrajectory = "Velocity Trajectory",
-    PositionTrajectory = "Position Trajectory",
-    PresentInputVoltage = "Present Input Voltage",
-    PresentTemperature = "Present Temperature",
-    BackupReady = "Backup Ready",
-}
+use super::coding;
+use super::reg::Reg;
+use device_profiles::{Access, Area, Register, Role, ServoProfile, WordOrder};
 
 /// An indirect block: `count` addresses of two bytes, and the data bytes that stand for them.
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +26,10 @@ pub(super) struct Table {
     row_at: Vec<u16>,
     known: Vec<Option<u16>>,
     indirect: Vec<Indirect>,
+    order: WordOrder,
     memory: Vec<u8>,
+    /// What of the memory outlives power; only the bytes of EEPROM rows mean something.
+    kept: Vec<u8>,
 }
 
 impl Table {
@@ -98,14 +42,7 @@ impl Table {
             let start = usize::from(row.address);
             row_at[start..start + usize::from(row.bytes())].fill(index);
         }
-        let known = Reg::ALL
-            .iter()
-            .map(|(_, name)| {
-                rows.iter()
-                    .position(|row| row.name == *name)
-                    .map(|row| row as u16)
-            })
-            .collect();
+        let known = Reg::places(profile);
         let indirect = rows
             .iter()
             .filter_map(|row| {
@@ -125,29 +62,55 @@ impl Table {
             row_at,
             known,
             indirect,
+            order: profile.word_order(),
             memory: vec![0; size],
+            kept: Vec::new(),
         };
         table.start_values(Area::Eeprom);
         table.start_values(Area::Ram);
+        table.keep();
         table
     }
 
     /// Puts every register of `area` to its documented start value, zero where there is none.
     pub(super) fn start_values(&mut self, area: Area) {
-        for index in 0..self.rows.len() {
-            let row = &self.rows[index];
-            if row.area != area {
-                continue;
+        for row in self.rows.iter().filter(|row| row.area == area) {
+            let (size, init) = (usize::from(row.size), row.init.unwrap_or(0));
+            for slot in 0..row.count {
+                let at = usize::from(row.address) + usize::from(slot) * size;
+                let value = init + i64::from(slot) * row.init_step;
+                coding::store(self.order, row, value, &mut self.memory[at..at + size]);
             }
-            let (init, step, size, count) = (row.init.unwrap_or(0), row.init_step, row.size, row.count);
-            let start = usize::from(row.address);
-            for slot in 0..count {
-                let at = start + usize::from(slot) * usize::from(size);
-                store(
-                    &mut self.memory[at..at + usize::from(size)],
-                    init + i64::from(slot) * step,
-                );
-            }
+        }
+    }
+
+    /// What power-up finds: EEPROM as it was kept, RAM as the document says.
+    pub(super) fn wake(&mut self) {
+        for row in self.rows.iter().filter(|row| row.area == Area::Eeprom) {
+            let bytes = span(row);
+            self.memory[bytes.clone()].copy_from_slice(&self.kept[bytes]);
+        }
+        self.start_values(Area::Ram);
+    }
+
+    /// Everything in EEPROM outlives power from here on.
+    pub(super) fn keep(&mut self) {
+        self.kept.clone_from(&self.memory);
+    }
+
+    /// What `reg` holds now outlives power from here on.
+    pub(super) fn keep_register(&mut self, reg: Reg) {
+        if let Some(bytes) = self.row(reg).map(span) {
+            self.kept[bytes.clone()].copy_from_slice(&self.memory[bytes]);
+        }
+    }
+
+    /// Puts `bytes` where a row's value, or a part of it, is. `keeps`: so that they outlive power.
+    pub(super) fn put(&mut self, address: u16, bytes: &[u8], keeps: bool) {
+        let at = usize::from(address)..usize::from(address) + bytes.len();
+        self.memory[at.clone()].copy_from_slice(bytes);
+        if keeps {
+            self.kept[at].copy_from_slice(bytes);
         }
     }
 
@@ -163,8 +126,14 @@ impl Table {
         &self.memory
     }
 
-    pub(super) fn memory_mut(&mut self) -> &mut [u8] {
-        &mut self.memory
+    /// What outlives power, from address 0 to the end of the EEPROM.
+    pub(super) fn kept(&self) -> &[u8] {
+        &self.kept[..self.eeprom_bytes()]
+    }
+
+    /// Puts back what `kept` gave; it takes effect at the next `wake`.
+    pub(super) fn restore(&mut self, bytes: &[u8]) {
+        self.kept[..bytes.len()].copy_from_slice(bytes);
     }
 
     pub(super) fn row(&self, reg: Reg) -> Option<&Register> {
@@ -179,14 +148,10 @@ impl Table {
         self.rows.iter().find(|row| row.role == Some(role))
     }
 
-    /// Which register the firmware knows begins at `address`.
+    /// Which register the firmware knows covers `address`.
     pub(super) fn known_at(&self, address: u16) -> Option<Reg> {
         let row = *self.row_at.get(usize::from(address))?;
-        let known = self
-            .known
-            .iter()
-            .position(|&known| known == Some(row) && row != NO_ROW)?;
-        Reg::ALL.get(known).map(|&(reg, _)| reg)
+        Reg::of_row(&self.known, row)
     }
 
     /// The value of `reg`; zero where the model lacks it.
@@ -196,16 +161,36 @@ impl Table {
 
     /// Stores `value` cut to the register's size; nothing where the model lacks it.
     pub(super) fn set(&mut self, reg: Reg, value: i64) {
-        if let Some(row) = self.row(reg) {
-            let (at, size) = (usize::from(row.address), usize::from(row.size));
-            store(&mut self.memory[at..at + size], value);
+        if let Some(row) = self.known[reg as usize] {
+            self.set_row(row, value);
         }
+    }
+
+    /// Stores `value` in the row that covers `address`.
+    pub(super) fn set_at(&mut self, address: u16, value: i64) {
+        if let Some(&row) = self.row_at.get(usize::from(address)) {
+            self.set_row(row, value);
+        }
+    }
+
+    fn set_row(&mut self, row: u16, value: i64) {
+        let Some(row) = self.rows.get(usize::from(row)) else {
+            return;
+        };
+        let at = usize::from(row.address);
+        let bytes = &mut self.memory[at..at + usize::from(row.size)];
+        coding::store(self.order, row, value, bytes);
     }
 
     /// The first value of `row`.
     pub(super) fn value(&self, row: &Register) -> i64 {
         let at = usize::from(row.address);
-        load(&self.memory[at..at + usize::from(row.size)], row.signed)
+        self.decode(row, &self.memory[at..at + usize::from(row.size)])
+    }
+
+    /// What `bytes` mean in `row`.
+    pub(super) fn decode(&self, row: &Register, bytes: &[u8]) -> i64 {
+        coding::load(self.order, row, bytes)
     }
 
     /// The row that covers `address`.
@@ -222,7 +207,7 @@ impl Table {
             .find(|block| (block.data..block.data + block.count).contains(&address));
         block.map_or(address, |block| {
             let at = usize::from(block.addresses + 2 * (address - block.data));
-            let target = load(&self.memory[at..at + 2], false) as u16;
+            let target = u16::from_le_bytes([self.memory[at], self.memory[at + 1]]);
             if usize::from(target) < self.memory.len() {
                 target
             } else {
@@ -244,21 +229,8 @@ impl Table {
     }
 }
 
-/// Low byte first; two's complement when `signed`.
-pub(super) fn load(bytes: &[u8], signed: bool) -> i64 {
-    let value = bytes
-        .iter()
-        .rev()
-        .fold(0i64, |value, &byte| value << 8 | i64::from(byte));
-    let bits = 8 * bytes.len() as u32;
-    if signed && bits > 0 && value >> (bits - 1) & 1 == 1 {
-        value - (1 << bits)
-    } else {
-        value
-    }
-}
-
-fn store(bytes: &mut [u8], value: i64) {
-    let len = bytes.len();
-    bytes.copy_from_slice(&value.to_le_bytes()[..len]);
+/// The bytes of `row`.
+fn span(row: &Register) -> std::ops::Range<usize> {
+    let start = usize::from(row.address);
+    start..start + usize::from(row.bytes())
 }

@@ -60,6 +60,15 @@ fn packet(id: u8, instruction: u8, params: &[u8]) -> Vec<u8> {
     packet
 }
 
+/// An instruction of protocol 1.0 or Feetech, built here and not by the code under test.
+fn summed_packet(id: u8, instruction: u8, params: &[u8]) -> Vec<u8> {
+    let mut packet = vec![0xFF, 0xFF, id, params.len() as u8 + 2, instruction];
+    packet.extend_from_slice(params);
+    let sum = packet[2..].iter().map(|&byte| u32::from(byte)).sum::<u32>();
+    packet.push(!(sum as u8));
+    packet
+}
+
 fn write(id: u8, address: u16, bytes: &[u8]) -> Vec<u8> {
     packet(id, 3, &[&address.to_le_bytes()[..], bytes].concat())
 }

@@ -1,8 +1,8 @@
 //! What is wrong with one servo: how it differs, for a while, from what its maker meant it to be.
 
 use super::fault::ServoFault;
+use super::reg::Reg;
 use super::servo::Servo;
-use super::table::{Reg, load};
 use device_profiles::Role;
 
 /// What is wrong between a servo and its wire.
@@ -92,8 +92,9 @@ impl Servo {
 
     fn speak_at(&mut self, baud: u32) -> i64 {
         let before = self.table.get(Reg::BaudRate);
-        match self.facts.bauds.iter().position(|&known| known == baud) {
-            Some(code) => self.table.set(Reg::BaudRate, code as i64),
+        let code = self.facts.bauds.iter().find(|&&(_, known)| known == baud);
+        match code.map(|&(code, _)| code) {
+            Some(code) => self.table.set(Reg::BaudRate, code),
             None => self.trouble.odd_baud = Some(baud),
         }
         before
@@ -101,16 +102,11 @@ impl Servo {
 
     /// Somebody has left `value` in the register of that role; what was there. Nothing where the model lacks it.
     fn leave(&mut self, role: Role, value: i64) -> i64 {
-        let Some((at, size, signed)) = self
-            .table
-            .row_of(role)
-            .map(|row| (usize::from(row.address), usize::from(row.size), row.signed))
-        else {
+        let Some(row) = self.table.row_of(role) else {
             return 0;
         };
-        let bytes = &mut self.table.memory_mut()[at..at + size];
-        let before = load(bytes, signed);
-        bytes.copy_from_slice(&value.to_le_bytes()[..size]);
+        let (before, address) = (self.table.value(row), row.address);
+        self.table.set_at(address, value);
         before
     }
 }

@@ -1,6 +1,7 @@
 //! What is said about one copy of a servo when it is put on the bus, and what is counted of its life.
 
 use super::plant::PlantKind;
+use device_profiles::{Role, ServoProfile};
 
 /// What a read of bytes that no register covers gives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -12,10 +13,22 @@ pub enum Gaps {
     AccessError,
 }
 
+/// Which error is told when a write deserves several.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precedence {
+    /// That of the register with the lowest address.
+    #[default]
+    FirstAddress,
+    /// The one with the lowest number.
+    LowestNumber,
+    /// The one with the highest number.
+    HighestNumber,
+}
+
 /// How this copy of a servo differs from the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
-    /// Number on the bus, 0 to 252.
+    /// Number on the bus: 0 to 252 with protocol 2.0, to 253 with the others.
     pub id: u8,
     /// Line speed in baud; none: the bus's own.
     pub baud: Option<u32>,
@@ -38,6 +51,8 @@ pub struct Unit {
     pub plant: PlantKind,
     /// Where the horn meets an end either way, radians from the middle of the position range; none: it turns freely.
     pub stops_rad: Option<[f64; 2]>,
+    /// Which of several errors is told.
+    pub precedence: Precedence,
 }
 
 impl Unit {
@@ -55,14 +70,17 @@ impl Unit {
             gaps: Gaps::default(),
             plant: PlantKind::default(),
             stops_rad: None,
+            precedence: Precedence::default(),
         }
     }
 
-    /// As it comes out of its box: number 1 at 57600 baud.
-    pub fn factory() -> Self {
+    /// As it comes out of its box: an XL430 with number 1 at 57600 baud, others as their tables say.
+    pub fn factory(profile: &ServoProfile) -> Self {
+        let init = |role| profile.role(role).and_then(|row| row.init);
+        let code = init(Role::BaudRate).and_then(|code| u8::try_from(code).ok());
         Self {
-            baud: Some(57_600),
-            ..Self::new(1)
+            baud: code.and_then(|code| profile.baud_of_code(code)),
+            ..Self::new(init(Role::Id).map_or(1, |id| id as u8))
         }
     }
 }
@@ -85,7 +103,9 @@ pub struct Counters {
     pub goal_writes: u64,
     /// Writes refused with an error.
     pub refused_writes: u64,
-    /// Bytes written to EEPROM registers that changed their value.
+    /// Writes of an EEPROM register that were kept: each wears it.
+    pub eeprom_writes: u64,
+    /// Those of them that changed its value.
     pub eeprom_changes: u64,
     /// Times torque went from off to on.
     pub torque_ons: u64,

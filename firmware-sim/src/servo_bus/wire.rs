@@ -121,6 +121,13 @@ impl Wire {
         at_ns
     }
 
+    /// The host listens at another speed from `now_ns` on: bytes still under way become others.
+    pub(super) fn spoil(&mut self, now_ns: u64) {
+        for byte in self.to_host.iter_mut().filter(|byte| byte.end_ns > now_ns) {
+            byte.value = byte.value.rotate_left(3) ^ 0x55;
+        }
+    }
+
     /// When the next byte of the host has reached the servos.
     pub(super) fn next_arrival_ns(&self) -> Option<u64> {
         self.to_servos.front().map(|byte| byte.end_ns)

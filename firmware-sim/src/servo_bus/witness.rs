@@ -1,7 +1,7 @@
 //! What a test may know of a servo that no byte on the wire tells.
 
+use super::reg::Reg;
 use super::servo::Servo;
-use super::table::Reg;
 use super::unit::Counters;
 use device_profiles::Role;
 
@@ -84,18 +84,28 @@ impl Servo {
         self.register(&row.name)
     }
 
-    /// The EEPROM as bytes from address 0, to be kept between runs.
+    /// The file name of its profile.
+    pub fn model(&self) -> &str {
+        &self.facts.model
+    }
+
+    /// What of its memory outlives power, from address 0, to be kept between runs.
     pub fn eeprom(&self) -> &[u8] {
-        &self.table.memory()[..self.table.eeprom_bytes()]
+        self.table.kept()
     }
 
     /// Puts back what `eeprom` gave. False: the length is that of another model, nothing is changed.
     pub fn restore_eeprom(&mut self, bytes: &[u8]) -> bool {
         let fits = bytes.len() == self.table.eeprom_bytes();
         if fits {
-            self.table.memory_mut()[..bytes.len()].copy_from_slice(bytes);
-            self.start_ram(self.stepped_ns);
+            self.table.restore(bytes);
+            self.start(self.stepped_ns);
         }
         fits
+    }
+
+    /// How often its EEPROM had been written to before this program began.
+    pub fn restore_wear(&mut self, eeprom_writes: u64) {
+        self.counters.eeprom_writes = eeprom_writes;
     }
 }

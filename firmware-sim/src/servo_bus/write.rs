@@ -1,126 +1,181 @@
-//! Reading and writing the table as a host may: who may write what and when, and what a write sets off.
+//! Reading and writing the table as a host may: who may write what and when.
 //!
-//! Source: the maker's protocol page ("Error") and control table pages. Which error comes first when
-//! several apply is not documented; here bytes are judged in the order of their addresses: access, then
-//! length, then value.
+//! Source: the maker's protocol pages ("Error") and control table pages. Which error comes first when
+//! several apply is not documented, so the readings there are are a switch. A Feetech servo has no error for a
+//! write: what it does not take it leaves as it was, and a locked one obeys without keeping.
 
-use super::goal::mode;
-use super::packet::error;
+use super::goal::Mode;
+use super::heard::Refusal;
+use super::reg::{Reg, Regs};
 use super::servo::Servo;
-use super::table::{Reg, Table, load};
-use super::unit::Gaps;
-use device_profiles::{Area, Register};
+use super::table::Table;
+use super::unit::{Gaps, Precedence};
+use device_profiles::{Area, Register, ServoProtocol};
 
 /// Largest Goal Position in the modes of several turns.
 const EXTENDED_MAX: i64 = 1_048_575;
 /// Largest Profile Velocity and Acceleration when they are times.
 const TIME_MAX: i64 = 32_737;
+/// Written to Torque Enable of an STS: the shaft is where the middle is from now on.
+pub(super) const CALIBRATE: i64 = 128;
 
 impl Servo {
-    /// Appends `length` bytes from `address` as they are at `at_ns`; an error number or 0.
-    pub(super) fn read(&mut self, at_ns: u64, address: u16, length: u16, out: &mut Vec<u8>) -> u8 {
+    /// Appends `length` bytes from `address` as they are at `at_ns`, or says why not.
+    pub(super) fn read(
+        &mut self,
+        at_ns: u64,
+        address: u16,
+        length: u16,
+        out: &mut Vec<u8>,
+    ) -> Option<Refusal> {
         let end = usize::from(address) + usize::from(length);
-        if end > self.table.memory().len() {
-            return error::ACCESS;
-        }
-        if length == 0 {
-            return error::DATA_LENGTH;
-        }
-        let bytes = || address..address + length;
-        if self.unit.gaps == Gaps::AccessError && bytes().any(|at| self.table.row_covering(at).is_none()) {
-            return error::ACCESS;
+        let bytes = || address..address.saturating_add(length);
+        if !self.is_feetech() {
+            if end > self.table.memory().len() {
+                return Some(Refusal::Access);
+            }
+            if length == 0 {
+                return Some(Refusal::Length);
+            }
+            let gap = || bytes().any(|at| self.table.row_covering(at).is_none());
+            if self.unit.gaps == Gaps::AccessError && gap() {
+                return Some(Refusal::Access);
+            }
         }
         self.refresh(at_ns);
         out.extend(bytes().map(|at| self.table.byte(at)));
-        0
+        None
     }
 
-    /// Whether `bytes` may be written at `address` now: an error number or 0.
-    pub(super) fn check_write(&self, address: u16, bytes: &[u8]) -> u8 {
+    /// Whether `bytes` may be written at `address` now.
+    pub(super) fn check_write(&self, address: u16, bytes: &[u8]) -> Option<Refusal> {
         if self.trouble.refuses_writes {
-            return error::ACCESS;
+            return Some(Refusal::Access);
+        }
+        if self.is_feetech() {
+            return None;
         }
         if usize::from(address) + bytes.len() > self.table.memory().len() {
-            return error::ACCESS;
+            return Some(Refusal::Access);
         }
         if bytes.is_empty() {
-            return error::DATA_LENGTH;
+            return Some(Refusal::Length);
         }
-        let verdicts = Runs {
+        let runs = Runs {
             table: &self.table,
             address,
             bytes,
-        }
-        .map(|(at, run)| self.check_run(at, run));
-        verdicts.into_iter().find(|&error| error != 0).unwrap_or(0)
-    }
-
-    /// Writes `bytes` at `address`, or nothing; an error number or 0.
-    pub(super) fn write(&mut self, at_ns: u64, address: u16, bytes: &[u8]) -> u8 {
-        let error = self.check_write(address, bytes);
-        if error != 0 {
-            self.counters.refused_writes += 1;
-            return error;
-        }
-        let mut done = 0;
-        while let Some((at, run)) = (Runs {
+        };
+        let refusals = runs.flat_map(|(at, run)| Rows {
             table: &self.table,
-            address: address + done,
-            bytes: &bytes[usize::from(done)..],
-        })
-        .next()
-        {
-            let len = run.len() as u16;
-            self.apply_run(at_ns, at, run);
-            done += len;
-        }
-        0
+            address: at,
+            bytes: run,
+        });
+        let refusals = refusals.filter_map(|(at, row, value)| self.check_row(at, row, value));
+        self.unit.precedence.choose(refusals)
     }
 
-    fn check_run(&self, address: u16, bytes: &[u8]) -> u8 {
-        let mut at = 0;
-        while at < bytes.len() {
-            let here = address + at as u16;
-            let Some(row) = self.table.row_covering(here) else {
-                return error::ACCESS;
-            };
-            let size = usize::from(row.size);
-            let aligned = (here - row.address).is_multiple_of(u16::from(row.size));
-            let locked = row.area == Area::Eeprom && self.torque_is_on();
-            if !Table::is_writable(row) || locked || !aligned {
-                return error::ACCESS;
-            }
-            let Some(value) = bytes.get(at..at + size) else {
-                return error::DATA_LENGTH;
-            };
-            let error = self.check_value(row, load(value, row.signed));
-            if error != 0 {
-                return error;
-            }
-            at += size;
+    /// Writes `bytes` at `address`, or nothing.
+    pub(super) fn write(&mut self, at_ns: u64, address: u16, bytes: &[u8]) -> Option<Refusal> {
+        if let Some(refusal) = self.check_write(address, bytes) {
+            self.counters.refused_writes += 1;
+            return Some(refusal);
         }
-        0
+        let (mut written, mut changed) = (Regs::default(), Regs::default());
+        let mut done = 0;
+        while done < bytes.len() {
+            let at = self.table.resolve(address + done as u16);
+            let Some((row_address, size)) = self.row_span(at) else {
+                done += 1;
+                continue;
+            };
+            let from = usize::from(at - row_address) % size;
+            let count = (size - from).min(bytes.len() - done);
+            let value = &bytes[done..done + count];
+            done += count;
+            let Some(has_changed) = self.put(at, value) else {
+                continue;
+            };
+            if let Some(reg) = self.table.known_at(row_address) {
+                written.insert(reg);
+                if has_changed {
+                    changed.insert(reg);
+                }
+            }
+        }
+        self.set_off(at_ns, written, changed);
+        None
     }
 
-    fn check_value(&self, row: &Register, value: i64) -> u8 {
+    /// First address and size of the row over `at`.
+    fn row_span(&self, at: u16) -> Option<(u16, usize)> {
+        let row = self.table.row_covering(at)?;
+        Some((row.address, usize::from(row.size)))
+    }
+
+    /// Puts `bytes` of one row at `at`; whether that changed it, or none if the servo leaves it as it was.
+    fn put(&mut self, at: u16, bytes: &[u8]) -> Option<bool> {
+        let row = self.table.row_covering(at)?;
+        let (is_eeprom, size) = (row.area == Area::Eeprom, usize::from(row.size));
+        let feetech = self.is_feetech();
+        if feetech && !Table::is_writable(row) {
+            return None;
+        }
+        if feetech && bytes.len() == size {
+            let value = self.table.decode(row, bytes);
+            if self.facts.protocol == ServoProtocol::Sts
+                && self.table.known_at(at) == Some(Reg::TorqueEnable)
+                && value == CALIBRATE
+            {
+                self.calibrate(self.facts.centre);
+                return None;
+            }
+            if !is_legal(row, value) {
+                self.counters.refused_writes += 1;
+                return None;
+            }
+        }
+        let start = usize::from(at);
+        let changes = self.table.memory()[start..start + bytes.len()] != *bytes;
+        let keeps = is_eeprom && !(feetech && self.table.get(Reg::Lock) != 0);
+        self.table.put(at, bytes, keeps);
+        if keeps {
+            self.counters.eeprom_writes += 1;
+            self.counters.eeprom_changes += u64::from(changes);
+            self.eeprom_bytes_written += bytes.len() as u64;
+        }
+        Some(changes)
+    }
+
+    /// Why the value that `bytes` would give the row over `at` is not taken. None of bytes: not enough.
+    fn check_row(&self, at: u16, row: Option<&Register>, bytes: Option<&[u8]>) -> Option<Refusal> {
+        let Some(row) = row else {
+            return Some(Refusal::Access);
+        };
+        let is_start = (at - row.address).is_multiple_of(u16::from(row.size));
+        let locked = row.area == Area::Eeprom && (self.torque_is_on() || self.table.get(Reg::Lock) != 0);
+        if !Table::is_writable(row) || locked || !is_start {
+            return Some(Refusal::Access);
+        }
+        let Some(bytes) = bytes else {
+            return Some(Refusal::Length);
+        };
+        self.check_value(row, self.table.decode(row, bytes))
+    }
+
+    fn check_value(&self, row: &Register, value: i64) -> Option<Refusal> {
         let reg = self.table.known_at(row.address);
         let is_goal = matches!(
             reg,
-            Some(Reg::GoalPwm | Reg::GoalCurrent | Reg::GoalVelocity | Reg::GoalPosition)
+            Some(Reg::GoalTorque | Reg::GoalCurrent | Reg::GoalVelocity | Reg::GoalPosition)
         );
         if self.watchdog_has_tripped() && (is_goal || reg == Some(Reg::BusWatchdog) && value != 0) {
-            return error::DATA_RANGE;
-        }
-        if !row.values.is_empty() && !row.values.contains(&value)
-            || row.min.is_some_and(|min| value < min)
-            || row.max.is_some_and(|max| value > max)
-        {
-            return error::DATA_RANGE;
+            return Some(Refusal::Range);
         }
         let is_time =
             matches!(reg, Some(Reg::ProfileVelocity | Reg::ProfileAcceleration)) && self.is_time_based();
-        if is_time && value > TIME_MAX {
-            return error::DATA_RANGE;
+        if !is_legal(row, value) || is_time && value > TIME_MAX {
+            return Some(Refusal::Range);
         }
         let limit = |name: &Option<String>| {
             name.as_deref()
@@ -128,112 +183,33 @@ impl Servo {
                 .map(|row| self.table.value(row))
         };
         if limit(&row.magnitude_register).is_some_and(|limit| value.abs() > limit) {
-            return error::DATA_LIMIT;
+            return Some(Refusal::Limit);
         }
-        if reg == Some(Reg::GoalPosition) && self.table.get(Reg::OperatingMode) != mode::POSITION {
-            return if value.abs() > EXTENDED_MAX {
-                error::DATA_RANGE
-            } else {
-                0
-            };
+        if reg == Some(Reg::GoalPosition) && self.mode() != Mode::Position {
+            return (value.abs() > EXTENDED_MAX).then_some(Refusal::Range);
         }
         let below = limit(&row.min_register).is_some_and(|min| value < min);
         let above = limit(&row.max_register).is_some_and(|max| value > max);
-        if below || above { error::DATA_LIMIT } else { 0 }
+        (below || above).then_some(Refusal::Limit)
     }
+}
 
-    fn apply_run(&mut self, at_ns: u64, address: u16, bytes: &[u8]) {
-        let mut at = 0;
-        while at < bytes.len() {
-            let here = address + at as u16;
-            let Some((size, eeprom, row_address)) = self
-                .table
-                .row_covering(here)
-                .map(|row| (usize::from(row.size), row.area == Area::Eeprom, row.address))
-            else {
-                return;
-            };
-            let start = usize::from(here);
-            let value = &bytes[at..(at + size).min(bytes.len())];
-            let memory = &mut self.table.memory_mut()[start..start + value.len()];
-            let changed = memory != value;
-            memory.copy_from_slice(value);
-            self.counters.eeprom_changes += u64::from(eeprom && changed);
-            if let Some(reg) = self.table.known_at(row_address) {
-                self.set_off(at_ns, reg, changed);
-            }
-            at += size;
-        }
-    }
+/// Whether `row` takes `value` at all.
+fn is_legal(row: &Register, value: i64) -> bool {
+    (row.values.is_empty() || row.values.contains(&value))
+        && row.min.is_none_or(|min| value >= min)
+        && row.max.is_none_or(|max| value <= max)
+}
 
-    /// What writing `reg` does beside storing a value.
-    fn set_off(&mut self, at_ns: u64, reg: Reg, changed: bool) {
-        match reg {
-            Reg::TorqueEnable => {
-                let on = self.table.get(Reg::TorqueEnable) == 1;
-                // The value is stored already; a change of state wants the state before it.
-                if on && changed {
-                    self.table.set(Reg::TorqueEnable, 0);
-                    if !self.shut_down {
-                        self.torque_on(at_ns);
-                    }
-                } else if !on {
-                    self.torque_off();
-                }
-            }
-            Reg::OperatingMode if changed => self.change_mode(),
-            Reg::GoalPosition | Reg::GoalVelocity | Reg::GoalPwm | Reg::GoalCurrent => {
-                self.counters.goal_writes += 1;
-                let by_goal = self.table.get(Reg::DriveMode) & 8 != 0;
-                if by_goal && !self.torque_is_on() && !self.shut_down {
-                    self.torque_on(at_ns);
-                } else if self.goal_of_mode() == reg {
-                    self.pursue(at_ns);
-                }
-            }
-            Reg::BusWatchdog => {
-                self.last_heard_ns = at_ns;
-                if self.facts.watchdog_from.is_none_or(|from| self.firmware() < from) {
-                    self.table.set(Reg::BusWatchdog, 0);
-                }
-            }
-            _ => {}
+impl Precedence {
+    /// Which of several refusals, in the order of their addresses, is told.
+    fn choose(self, mut refusals: impl Iterator<Item = Refusal>) -> Option<Refusal> {
+        let number = |refusal: &Refusal| super::dynamixel2::packet::error_number(Some(*refusal));
+        match self {
+            Self::FirstAddress => refusals.next(),
+            Self::LowestNumber => refusals.min_by_key(number),
+            Self::HighestNumber => refusals.max_by_key(number),
         }
-    }
-
-    fn goal_of_mode(&self) -> Reg {
-        match self.table.get(Reg::OperatingMode) {
-            mode::VELOCITY => Reg::GoalVelocity,
-            mode::CURRENT => Reg::GoalCurrent,
-            mode::PWM => Reg::GoalPwm,
-            _ => Reg::GoalPosition,
-        }
-    }
-
-    /// A new operating mode: gains as at start, no profile, goals at their limits, turns forgotten.
-    fn change_mode(&mut self) {
-        for reg in [
-            Reg::VelocityIGain,
-            Reg::VelocityPGain,
-            Reg::PositionDGain,
-            Reg::PositionIGain,
-            Reg::PositionPGain,
-            Reg::FeedforwardSecond,
-            Reg::FeedforwardFirst,
-        ] {
-            let init = self.table.row(reg).and_then(|row| row.init).unwrap_or(0);
-            self.table.set(reg, init);
-        }
-        self.table.set(Reg::ProfileVelocity, 0);
-        self.table.set(Reg::ProfileAcceleration, 0);
-        self.table.set(Reg::GoalPwm, self.table.get(Reg::PwmLimit));
-        self.table
-            .set(Reg::GoalCurrent, self.table.get(Reg::CurrentLimit));
-        self.table.set(Reg::GoalVelocity, 0);
-        self.plant
-            .recount(self.plant.position.rem_euclid(self.facts.counts_per_turn));
-        self.rest();
-        self.table.set(Reg::GoalPosition, self.present_counts());
     }
 }
 
@@ -259,5 +235,28 @@ impl<'b> Iterator for Runs<'_, 'b> {
         self.address += neighbours as u16;
         self.bytes = rest;
         Some((first, run))
+    }
+}
+
+/// Neighbouring bytes cut into values: where, of which row, and its bytes if they are all there.
+struct Rows<'a, 'b> {
+    table: &'a Table,
+    address: u16,
+    bytes: &'b [u8],
+}
+
+impl<'a, 'b> Iterator for Rows<'a, 'b> {
+    type Item = (u16, Option<&'a Register>, Option<&'b [u8]>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.bytes.is_empty() {
+            return None;
+        }
+        let (at, row) = (self.address, self.table.row_covering(self.address));
+        let size = row.map_or(1, |row| usize::from(row.size));
+        let (value, rest) = self.bytes.split_at_checked(size).unwrap_or((&[], &[]));
+        self.address = self.address.saturating_add(size as u16);
+        self.bytes = rest;
+        Some((at, row, (!value.is_empty()).then_some(value)))
     }
 }

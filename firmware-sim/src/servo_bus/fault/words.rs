@@ -1,7 +1,7 @@
 //! The words of a fault's text, each with its column, and what stands where another was expected.
 
 use super::FaultError;
-use crate::servo_bus::packet::ID_MAX;
+use crate::servo_bus::dynamixel2::packet::ID_MAX;
 use device_profiles::Role;
 
 /// Longest time a fault may name, microseconds: eleven days.

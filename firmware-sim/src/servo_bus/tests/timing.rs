@@ -100,7 +100,7 @@ fn garbage_before_a_packet_does_no_harm() {
 fn a_header_inside_a_packet_is_data_or_a_new_start() {
     // As a host that does not stuff writes it: goal 0x00FDFFFF, unstuffed, with its checksum.
     let mut unstuffed = vec![0xFF, 0xFF, 0xFD, 0, 1, 9, 0, 3, 224, 0, 0xFF, 0xFF, 0xFD, 0];
-    let checksum = super::super::crc::extend(0, &unstuffed);
+    let checksum = super::super::dynamixel2::crc::extend(0, &unstuffed);
     unstuffed.extend_from_slice(&checksum.to_le_bytes());
     let mut host = Host::new(bus(BusOptions::default(), &[1]));
     assert_eq!(host.error_of(&unstuffed), Some(0));

@@ -3,20 +3,19 @@
 //! Source: the maker's protocol 2.0 page.
 
 use super::crc;
+use crate::servo_bus::heard::Refusal;
 
 /// What every packet begins with, the reserved byte included.
-pub(super) const HEADER: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x00];
-/// Addresses every servo at once.
-pub(super) const BROADCAST: u8 = 254;
+pub(in crate::servo_bus) const HEADER: [u8; 4] = [0xFF, 0xFF, 0xFD, 0x00];
 /// Largest number a servo may have.
-pub(super) const ID_MAX: u8 = 252;
+pub(in crate::servo_bus) const ID_MAX: u8 = 252;
 /// Stands where a status packet would have its instruction.
-pub(super) const STATUS: u8 = 0x55;
+pub(in crate::servo_bus) const STATUS: u8 = 0x55;
 /// Bit 7 of the error byte: Hardware Error Status is not zero.
-pub(super) const ALERT: u8 = 0x80;
+pub(in crate::servo_bus) const ALERT: u8 = 0x80;
 
 /// Instruction numbers.
-pub(super) mod instruction {
+pub(in crate::servo_bus) mod instruction {
     pub(crate) const PING: u8 = 0x01;
     pub(crate) const READ: u8 = 0x02;
     pub(crate) const WRITE: u8 = 0x03;
@@ -34,19 +33,22 @@ pub(super) mod instruction {
     pub(crate) const FAST_BULK_READ: u8 = 0x9A;
 }
 
-/// Error numbers of a status packet, bits 6..0; zero is success.
-pub(super) mod error {
-    pub(crate) const RESULT_FAIL: u8 = 1;
-    pub(crate) const INSTRUCTION: u8 = 2;
-    pub(crate) const CRC: u8 = 3;
-    pub(crate) const DATA_RANGE: u8 = 4;
-    pub(crate) const DATA_LENGTH: u8 = 5;
-    pub(crate) const DATA_LIMIT: u8 = 6;
-    pub(crate) const ACCESS: u8 = 7;
+/// Bits 6..0 of the error byte; zero is success.
+pub(in crate::servo_bus) fn error_number(refusal: Option<Refusal>) -> u8 {
+    match refusal {
+        None => 0,
+        Some(Refusal::Fail) => 1,
+        Some(Refusal::Instruction) => 2,
+        Some(Refusal::Checksum) => 3,
+        Some(Refusal::Range) => 4,
+        Some(Refusal::Length) => 5,
+        Some(Refusal::Limit) => 6,
+        Some(Refusal::Access) => 7,
+    }
 }
 
 /// Appends the status packet of `id` with `params`, stuffed and checked.
-pub(super) fn status(id: u8, error: u8, params: &[u8], out: &mut Vec<u8>) {
+pub(in crate::servo_bus) fn status(id: u8, error: u8, params: &[u8], out: &mut Vec<u8>) {
     let start = out.len();
     out.extend_from_slice(&HEADER);
     out.extend_from_slice(&[id, 0, 0]);
@@ -70,7 +72,7 @@ fn stuff(bytes: &[u8], body: usize, out: &mut Vec<u8>) {
 }
 
 /// Removes the stuffing from `packet[from..to]` in place; gives the new end.
-pub(super) fn unstuff(packet: &mut [u8], from: usize, to: usize) -> usize {
+pub(in crate::servo_bus) fn unstuff(packet: &mut [u8], from: usize, to: usize) -> usize {
     let mut end = from;
     let mut matched = 0;
     let mut skip = false;

@@ -7,7 +7,7 @@
 const POLYNOMIAL: u16 = 0x8005;
 
 /// Continues checksum `crc` over `bytes`; begin with 0.
-pub(super) fn extend(crc: u16, bytes: &[u8]) -> u16 {
+pub(in crate::servo_bus) fn extend(crc: u16, bytes: &[u8]) -> u16 {
     bytes.iter().fold(crc, |crc, &byte| {
         (0..8).fold(crc ^ u16::from(byte) << 8, |crc, _| {
             if crc & 0x8000 == 0 {

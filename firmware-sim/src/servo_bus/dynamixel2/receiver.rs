@@ -6,6 +6,7 @@
 
 use super::crc;
 use super::packet::{HEADER, unstuff};
+use crate::servo_bus::heard::{Framing, Heard};
 
 /// Longest idle time between two bytes of one packet.
 const GAP_MAX_NS: u64 = 1_500_000;
@@ -34,44 +35,33 @@ pub enum InnerHeader {
     Restart,
 }
 
-/// A packet just completed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Heard {
-    /// `Receiver::params` has the parameters.
-    Instruction { id: u8, instruction: u8 },
-    /// The checksum was wrong.
-    BadCrc { id: u8 },
-}
-
 /// The bytes of the packet in hand.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Receiver {
+pub(in crate::servo_bus) struct Receiver {
     packet: Vec<u8>,
     params_end: usize,
-    last_ns: Option<u64>,
+    began_ns: u64,
     inner_header: InnerHeader,
     /// Packets dropped: by a gap, a length no servo can take, or a wrong checksum.
-    pub(super) dropped: u64,
+    pub(in crate::servo_bus) dropped: u64,
 }
 
 impl Receiver {
-    pub(super) fn new(inner_header: InnerHeader) -> Self {
+    pub(in crate::servo_bus) fn new(inner_header: InnerHeader) -> Self {
         Self {
             inner_header,
             ..Self::default()
         }
     }
 
-    /// Takes the byte that began at `start_ns` and was complete at `end_ns`.
-    pub(super) fn push(&mut self, start_ns: u64, end_ns: u64, byte: u8) -> Option<Heard> {
-        let late = self
-            .last_ns
-            .is_some_and(|last| start_ns.saturating_sub(last) > GAP_MAX_NS);
-        if late && !self.packet.is_empty() {
-            self.dropped += u64::from(self.packet.len() > HEADER.len());
-            self.packet.clear();
+    /// Takes the byte that was complete at `end_ns`, `idle_ns` after the one before.
+    pub(in crate::servo_bus) fn push(&mut self, idle_ns: u64, end_ns: u64, byte: u8) -> Option<Heard> {
+        if idle_ns > GAP_MAX_NS {
+            self.give_up();
         }
-        self.last_ns = Some(end_ns);
+        if self.packet.is_empty() {
+            self.began_ns = end_ns;
+        }
         if self.packet.len() < HEADER.len() {
             self.seek(byte);
             return None;
@@ -96,12 +86,18 @@ impl Receiver {
     }
 
     /// Parameters of the instruction last heard, valid until the next byte.
-    pub(super) fn params(&self) -> &[u8] {
+    pub(in crate::servo_bus) fn params(&self) -> &[u8] {
         self.packet.get(PREFIX + 1..self.params_end).unwrap_or_default()
     }
 
     /// Makes room for the next packet; to be called when the parameters have been used.
-    pub(super) fn clear(&mut self) {
+    pub(in crate::servo_bus) fn clear(&mut self) {
+        self.packet.clear();
+    }
+
+    /// Drops a packet that will not be completed.
+    pub(in crate::servo_bus) fn give_up(&mut self) {
+        self.dropped += u64::from(self.packet.len() > HEADER.len());
         self.packet.clear();
     }
 
@@ -115,17 +111,19 @@ impl Receiver {
 
     fn complete(&mut self) -> Heard {
         let end = self.packet.len() - 2;
-        let id = self.packet[4];
         let sent = u16::from_le_bytes([self.packet[end], self.packet[end + 1]]);
-        if crc::extend(0, &self.packet[..end]) != sent {
+        let is_whole = crc::extend(0, &self.packet[..end]) == sent;
+        if is_whole {
+            self.params_end = unstuff(&mut self.packet, PREFIX, end);
+        } else {
             self.dropped += 1;
             self.params_end = 0;
-            return Heard::BadCrc { id };
         }
-        self.params_end = unstuff(&mut self.packet, PREFIX, end);
-        Heard::Instruction {
-            id,
-            instruction: self.packet[PREFIX],
+        Heard {
+            framing: Framing::Dynamixel2,
+            began_ns: self.began_ns,
+            id: self.packet[4],
+            instruction: is_whole.then(|| self.packet[PREFIX]),
         }
     }
 }
