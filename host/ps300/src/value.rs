@@ -13,6 +13,10 @@ use glam::{DAffine3, DMat2, DMat3, DMat4, DVec2, DVec3, DVec4};
 use crate::language::VectorList;
 use crate::pick::Pick;
 
+/// Content that messages share. It knows no weak references, so that whoever holds the only one finds that out
+/// without an atomic operation and puts new content in the same place.
+pub use triomphe::Arc as Shared;
+
 /// One message. Matrices act on column vectors; their literals are written row by row. What is larger than
 /// three numbers is shared, so that a message is small wherever it waits and copies cost the same.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,15 +34,15 @@ pub enum Value {
     /// `V3D(x,y,z)`.
     Vector3(DVec3),
     /// `V4D(x,y,z,w)`.
-    Vector4(Arc<DVec4>),
+    Vector4(Shared<DVec4>),
     /// `M2D(…)`, two rows of two.
-    Matrix2(Arc<DMat2>),
+    Matrix2(Shared<DMat2>),
     /// `M3D(…)`, three rows of three.
-    Matrix3(Arc<DMat3>),
+    Matrix3(Shared<DMat3>),
     /// `M4D(…)`, four rows of four.
-    Matrix4(Arc<DMat4>),
+    Matrix4(Shared<DMat4>),
     /// Three rows of four, the kind LOOKAT makes: a linear part and, as last column, a translation.
-    Matrix4x3(Arc<DAffine3>),
+    Matrix4x3(Shared<DAffine3>),
     /// `VL(name)`: the vectors of a list, as it is when the command is executed.
     Vectors(Arc<VectorList>),
     /// What PICK found, nearest first; no literal.
@@ -46,6 +50,19 @@ pub enum Value {
 }
 
 impl Value {
+    /// Becomes equal to `other` without sharing with it: what is written over again and again costs less so.
+    #[inline]
+    pub(crate) fn take_over(&mut self, other: &Self) {
+        match (&mut *self, other) {
+            (Self::Matrix3(mine), Self::Matrix3(content)) => written_over(mine, content),
+            (Self::Matrix4(mine), Self::Matrix4(content)) => written_over(mine, content),
+            (Self::Matrix4x3(mine), Self::Matrix4x3(content)) => written_over(mine, content),
+            (Self::Vector3(mine), Self::Vector3(v)) => *mine = *v,
+            (Self::Real(mine), Self::Real(x)) => *mine = *x,
+            _ => self.clone_from(other),
+        }
+    }
+
     /// The kind of this value; ports accept or refuse by it.
     pub fn kind(&self) -> Kind {
         match self {
@@ -251,6 +268,13 @@ impl fmt::Display for Kinds {
     }
 }
 
+fn written_over<T: Copy>(mine: &mut Shared<T>, other: &Shared<T>) {
+    match Shared::get_mut(mine) {
+        Some(mine) => *mine = **other,
+        None => *mine = Shared::new(**other),
+    }
+}
+
 macro_rules! values_from {
     ($($from:ty => $variant:ident),* $(,)?) => {
         $(impl From<$from> for Value {
@@ -266,13 +290,18 @@ macro_rules! shared_values_from {
     ($($from:ty => $variant:ident),* $(,)?) => {
         $(impl From<$from> for Value {
             fn from(value: $from) -> Self {
-                Self::$variant(Arc::new(value))
+                Self::$variant(Shared::new(value))
             }
         })*
     };
 }
-shared_values_from!(DVec4 => Vector4, DMat2 => Matrix2, DMat3 => Matrix3, DMat4 => Matrix4, DAffine3 => Matrix4x3,
-    VectorList => Vectors);
+shared_values_from!(DVec4 => Vector4, DMat2 => Matrix2, DMat3 => Matrix3, DMat4 => Matrix4, DAffine3 => Matrix4x3);
+
+impl From<VectorList> for Value {
+    fn from(list: VectorList) -> Self {
+        Self::Vectors(Arc::new(list))
+    }
+}
 
 impl From<&str> for Value {
     fn from(text: &str) -> Self {

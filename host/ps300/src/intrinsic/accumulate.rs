@@ -102,19 +102,22 @@ impl Function for Accumulate {
     }
 
     fn fire(&mut self, inputs: &Inputs<'_>, outputs: &mut Outputs<'_>) -> Result<(), Fault> {
-        let mut running = match self.running.take() {
-            Some(running) if inputs.is_constant(2) => running,
-            _ => start(inputs)?,
+        if !inputs.is_constant(2) {
+            self.running = None;
+        }
+        let running = match &mut self.running {
+            Some(running) => running,
+            none => none.insert(start(inputs)?),
         };
-        let result = match &mut running {
+        match running {
             Running::Product(product) => multiply(product, inputs, outputs),
             Running::Sum { kind, sum, sent } => {
-                *kind = promoted(*kind, inputs);
+                if *kind == Kind::Integer {
+                    *kind = promoted(inputs);
+                }
                 add(*kind, sum, sent, inputs, outputs)
             }
-        };
-        self.running = Some(running);
-        result
+        }
     }
 
     fn remembered(&self) -> Vec<Value> {
@@ -183,13 +186,13 @@ fn start(inputs: &Inputs<'_>) -> Result<Running, Fault> {
 
 /// A sum of integers that nothing made integral by <2> becomes real with the first real, or scale with a
 /// fraction, that enters it.
-fn promoted(kind: Kind, inputs: &Inputs<'_>) -> Kind {
+fn promoted(inputs: &Inputs<'_>) -> Kind {
     let scale = inputs.get(4).as_number().unwrap_or(1.0);
     let real = inputs.get(1).kind() == Kind::Real || scale.fract() != 0.0;
-    if kind == Kind::Integer && real && inputs.find(2).is_none() {
+    if real && inputs.find(2).is_none() {
         Kind::Real
     } else {
-        kind
+        Kind::Integer
     }
 }
 
@@ -230,9 +233,9 @@ fn add(
     let delta = delta.ok_or(Fault::Kind { input: 1, expected })?;
     let least = inputs.number_or(3, 0.0)?;
     let scale = inputs.number_or(4, 1.0)?;
-    let upper = bounds(inputs, 5, kind, f64::INFINITY)?;
-    let lower = bounds(inputs, 6, kind, f64::NEG_INFINITY)?;
-    let next: [f64; 4] = std::array::from_fn(|i| (sum[i] + delta[i] * scale).min(upper[i]).max(lower[i]));
+    let mut next: [f64; 4] = std::array::from_fn(|i| sum[i] + delta[i] * scale);
+    limit(&mut next, kind, inputs, 5, f64::min)?;
+    limit(&mut next, kind, inputs, 6, f64::max)?;
     if !next.iter().all(|x| x.is_finite()) {
         return domain("the sum is not finite; it was left as it was");
     }
@@ -254,25 +257,31 @@ fn moved(a: &[f64; 4], b: &[f64; 4]) -> f64 {
         .sqrt()
 }
 
-/// A limit for each component. Components the kind does not have stay at zero, within any limit.
+/// Keeps the components that the kind has on the right side of a limit, where there is one.
 #[inline]
-fn bounds(inputs: &Inputs<'_>, input: u8, kind: Kind, absent: f64) -> Result<[f64; 4], Fault> {
-    let used = count(kind);
-    let fill = |x: f64| std::array::from_fn(|i| if i < used { x } else { absent });
-    match inputs.find(input) {
-        None => Ok([absent; 4]),
-        Some(limit) => match limit.as_number() {
-            Some(x) => Ok(fill(x)),
-            None if limit.kind() == kind => {
-                let limit = components(limit).unwrap_or([absent; 4]);
-                Ok(std::array::from_fn(|i| if i < used { limit[i] } else { absent }))
-            }
-            None => Err(Fault::Kind {
+fn limit(
+    sum: &mut [f64; 4],
+    kind: Kind,
+    inputs: &Inputs<'_>,
+    input: u8,
+    keep: fn(f64, f64) -> f64,
+) -> Result<(), Fault> {
+    let Some(limit) = inputs.find(input) else {
+        return Ok(());
+    };
+    let each = match limit.as_number() {
+        Some(x) => [x; 4],
+        None => components(limit)
+            .filter(|_| limit.kind() == kind)
+            .ok_or(Fault::Kind {
                 input,
                 expected: Kinds::NUMBER | kind.into(),
-            }),
-        },
+            })?,
+    };
+    for (x, limit) in sum.iter_mut().zip(each).take(count(kind)) {
+        *x = keep(*x, limit);
     }
+    Ok(())
 }
 
 fn count(kind: Kind) -> usize {

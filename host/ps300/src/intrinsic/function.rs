@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::spare::{Message, Spares};
+use super::message::Message;
 use crate::language::Input;
-use crate::network::InputPort;
+use crate::network::{InputPort, OutputPort};
 use crate::value::{Kind, Kinds, Value};
 
 /// Deterministic, no clock of its own, no I/O: the same messages in give the same messages out.
@@ -107,11 +107,13 @@ impl<'a> Inputs<'a> {
     }
 
     /// The message or constant at input `number`; FALSE if the function has no such input.
+    #[inline]
     pub fn get(&self, number: u8) -> &'a Value {
         self.find(number).unwrap_or(&NOTHING)
     }
 
     /// The same, nothing where an optional constant was never set.
+    #[inline]
     pub fn find(&self, number: u8) -> Option<&'a Value> {
         self.port(number).and_then(InputPort::front)
     }
@@ -122,16 +124,22 @@ impl<'a> Inputs<'a> {
     }
 
     /// Whether firings leave this input's message in place.
+    #[inline]
     pub fn is_constant(&self, number: u8) -> bool {
         self.port(number).is_some_and(|port| port.constant)
     }
 
+    #[inline]
     fn port(&self, number: u8) -> Option<&'a InputPort> {
         self.ports.get(usize::from(number).wrapping_sub(1))
     }
 
     /// An integer or a real as a real.
+    #[inline]
     pub fn number(&self, number: u8) -> Result<f64, Fault> {
+        if let Value::Real(x) = self.get(number) {
+            return Ok(*x);
+        }
         self.get(number).as_number().ok_or(Fault::Kind {
             input: number,
             expected: Kinds::NUMBER,
@@ -139,6 +147,7 @@ impl<'a> Inputs<'a> {
     }
 
     /// A number that may be absent.
+    #[inline]
     pub fn number_or(&self, number: u8, absent: f64) -> Result<f64, Fault> {
         self.find(number).map_or(Ok(absent), |_| self.number(number))
     }
@@ -217,29 +226,53 @@ pub(crate) enum Look {
     },
 }
 
+/// What one firing sent, in the order of the calls. A message mostly lies already where its output keeps its last.
+#[derive(Default)]
+pub(crate) struct Sent {
+    /// On which outputs, from 1; with [`Sent::APART`] for a message that lies apart.
+    pub(crate) outputs: Vec<u16>,
+    pub(crate) apart: Vec<Value>,
+}
+
+impl Sent {
+    pub(crate) const APART: u16 = 0x100;
+
+    pub(crate) fn clear(&mut self) {
+        self.outputs.clear();
+        self.apart.clear();
+    }
+}
+
 /// Where a firing puts what it sends. Delivered in the order of the calls.
 pub struct Outputs<'a> {
-    sent: &'a mut Vec<(u8, Value)>,
+    ports: &'a mut [OutputPort],
+    sent: &'a mut Sent,
     errands: &'a mut Vec<Errand>,
-    spares: &'a mut Spares,
 }
 
 impl<'a> Outputs<'a> {
-    pub(crate) fn new(
-        sent: &'a mut Vec<(u8, Value)>,
-        errands: &'a mut Vec<Errand>,
-        spares: &'a mut Spares,
-    ) -> Self {
-        Self {
-            sent,
-            errands,
-            spares,
-        }
+    pub(crate) fn new(ports: &'a mut [OutputPort], sent: &'a mut Sent, errands: &'a mut Vec<Errand>) -> Self {
+        Self { ports, sent, errands }
     }
 
     /// Sends on output `number`, counted from 1.
+    #[inline]
     pub fn send(&mut self, number: u8, value: impl Message) {
-        self.sent.push((number, value.into_message(self.spares)));
+        if let Some(port) = self.ports.get_mut(usize::from(number).wrapping_sub(1))
+            && value.is_finite()
+            && let Some(place) = port.next()
+        {
+            value.put(place);
+            self.sent.outputs.push(number.into());
+        } else {
+            self.send_apart(number, value.into_value());
+        }
+    }
+
+    #[cold]
+    fn send_apart(&mut self, number: u8, value: Value) {
+        self.sent.outputs.push(Sent::APART | u16::from(number));
+        self.sent.apart.push(value);
     }
 
     /// Sends text on output `number`, unless it is too long to travel.

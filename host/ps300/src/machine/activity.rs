@@ -60,7 +60,7 @@ impl OutputActivity {
         Self {
             sent: port.sent,
             last: port.last.clone(),
-            frozen: port.frozen,
+            frozen: port.is_frozen(),
             withheld: port.withheld.into(),
         }
     }

@@ -85,7 +85,7 @@ impl Around<'_> {
         }
         let aim = Aim {
             window,
-            camera: self.camera,
+            camera: *self.camera,
             detailed,
         };
         picks(self.structure, self.names, &list, &traced, &aim)

@@ -89,13 +89,17 @@ struct Around<'a> {
     readouts: &'a Readouts,
     displayed: &'a [NameId],
     senders: &'a rendered::Senders,
-    camera: DMat4,
+    camera: &'a DMat4,
     frame: u64,
 }
 
 impl Surroundings for Around<'_> {
-    fn feed(&mut self, to: NodeId, input: Input, value: &Value) -> Result<(), Refusal> {
-        self.structure.feed(to, input, value)
+    fn feed(&mut self, to: NodeId, input: Input, value: &Value) -> Result<Option<InstanceId>, Refusal> {
+        self.structure.feed(to, input, value)?;
+        if self.senders.is_empty() || input != Input::Number(1) {
+            return Ok(None);
+        }
+        Ok(self.senders.get(&to).copied())
     }
 
     fn node(&self, to: NodeId) -> (Name, About) {
@@ -131,13 +135,6 @@ impl Surroundings for Around<'_> {
         }
     }
 
-    fn answers(&self, to: NodeId, input: Input) -> Option<InstanceId> {
-        self.senders
-            .get(&to)
-            .copied()
-            .filter(|_| input == Input::Number(1))
-    }
-
     fn picks(&self, window: [DVec2; 2], detailed: bool) -> Arc<[Pick]> {
         self.look(window, detailed)
     }
@@ -167,7 +164,7 @@ macro_rules! with_network {
             readouts: &$machine.readouts,
             displayed: &$machine.displayed,
             senders: &$machine.senders,
-            camera: $machine.camera,
+            camera: &$machine.camera,
             frame: $machine.network.now.frame,
         };
         let $network = &mut $machine.network;

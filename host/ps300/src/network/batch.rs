@@ -73,10 +73,10 @@ pub(super) struct Arrivals {
 
 impl Network {
     /// Takes a message of the host: at once if nothing is in its way, otherwise in its turn.
-    pub(crate) fn arrive(&mut self, to: Arrival, mut value: Value, outside: &mut impl Surroundings) {
+    pub(crate) fn arrive(&mut self, to: Arrival, value: Value, outside: &mut impl Surroundings) {
         self.arrivals.begun = true;
         if self.batch_over && self.arrivals.closed.is_empty() && self.arrivals.open == 0 {
-            self.take_in(to, &mut value, outside);
+            self.take_in(to, value, outside);
         } else if self.arrivals.messages.len() < self.limits.arrivals_max {
             self.arrivals.messages.push_back((to, value));
             self.arrivals.open += 1;
@@ -104,10 +104,10 @@ impl Network {
         }
     }
 
-    fn take_in(&mut self, to: Arrival, value: &mut Value, outside: &mut impl Surroundings) {
+    fn take_in(&mut self, to: Arrival, value: Value, outside: &mut impl Surroundings) {
         match to {
             Arrival::Output(from) => self.send_out(from, value, outside),
-            Arrival::Input(inlet) => self.deliver(inlet, value, outside),
+            Arrival::Input(inlet) => self.deliver(inlet, &value, outside),
             Arrival::Nowhere => {}
         }
     }
@@ -167,8 +167,8 @@ impl Network {
             return false;
         };
         for _ in 0..count {
-            if let Some((to, mut value)) = self.arrivals.messages.pop_front() {
-                self.take_in(to, &mut value, outside);
+            if let Some((to, value)) = self.arrivals.messages.pop_front() {
+                self.take_in(to, value, outside);
             }
         }
         if let Some(now) = now {

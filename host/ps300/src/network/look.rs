@@ -24,14 +24,14 @@ impl Network {
                     if let Some(behaviour) = self.behaviours.get_mut(from.0 as usize) {
                         behaviour.found();
                     }
-                    self.send_out(outlet(1), &mut Value::Picks(picks), outside);
+                    self.send_out(outlet(1), Value::Picks(picks), outside);
                 } else if last {
-                    self.send_out(outlet(2), &mut Value::Boolean(false), outside);
+                    self.send_out(outlet(2), Value::Boolean(false), outside);
                 }
             }
             Look::Transform { name, to, part } => match outside.transform(&name, part) {
                 Ok(value) => {
-                    self.send_out(Outlet { from, output: 1 }, &mut value.clone(), outside);
+                    self.send_out(Outlet { from, output: 1 }, value.clone(), outside);
                     if let Some(to) = to {
                         self.put(from, &to, &value, outside);
                     }

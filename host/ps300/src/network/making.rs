@@ -91,7 +91,7 @@ impl Network {
             let _ = clock.advance(
                 self.now,
                 &inputs,
-                &mut Outputs::new(&mut self.sent, &mut self.errands, &mut self.spares),
+                &mut Outputs::new(&mut [], &mut self.sent, &mut self.errands),
             );
         }
         self.sent.clear();

@@ -43,7 +43,7 @@ use batch::{Allowance, Arrivals};
 use instance::{Behaviour, Description};
 use queues::Queues;
 
-use crate::intrinsic::{Errand, Now, Spares};
+use crate::intrinsic::{Errand, Now, Sent};
 use crate::language::{Input, Name};
 use crate::value::{Kinds, Value};
 
@@ -134,9 +134,8 @@ pub(crate) struct Network {
     arrived: VecDeque<(SinkId, u8, Value)>,
     watched: VecDeque<Watched>,
     // Lent to each firing and given back, so that firing does not allocate.
-    sent: Vec<(u8, Value)>,
+    sent: Sent,
     errands: Vec<Errand>,
-    spares: Spares,
 }
 
 impl Network {
@@ -162,9 +161,8 @@ impl Network {
             making: None,
             arrived: VecDeque::new(),
             watched: VecDeque::new(),
-            sent: Vec::new(),
+            sent: Sent::default(),
             errands: Vec::new(),
-            spares: Spares::default(),
         }
     }
 

@@ -14,8 +14,18 @@ pub(crate) struct OutputPort {
     pub(crate) withheld: u32,
     pub(crate) kinds: Kinds,
     pub(super) watched: bool,
-    /// Whether what it would send is withheld.
-    pub(crate) frozen: bool,
+    flow: Flow,
+}
+
+/// What becomes of the messages of an output.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Flow {
+    /// They are sent.
+    Free,
+    /// The last is on its way: computed and not yet delivered.
+    Leaving,
+    /// They are withheld.
+    Frozen,
 }
 
 /// What an output feeds, in the order of CONNECT, which is the order of delivery. Most feed one input, which is
@@ -41,13 +51,49 @@ impl OutputPort {
             withheld: 0,
             kinds: spec.kinds,
             watched: false,
-            frozen: false,
+            flow: Flow::Free,
         }
+    }
+
+    /// The place for its next message; nothing where that has to be looked at first, or another is on its way.
+    #[inline]
+    pub(crate) fn next(&mut self) -> Option<&mut Option<Value>> {
+        if !self.is_plain() {
+            return None;
+        }
+        self.flow = Flow::Leaving;
+        Some(&mut self.last)
+    }
+
+    /// Whether a message can simply go.
+    #[inline]
+    pub(super) fn is_plain(&self) -> bool {
+        !self.watched && self.flow == Flow::Free
+    }
+
+    #[inline]
+    pub(super) fn has_left(&mut self) {
+        self.flow = Flow::Free;
+    }
+
+    /// Whether what it would send is withheld.
+    pub(crate) fn is_frozen(&self) -> bool {
+        self.flow == Flow::Frozen
+    }
+
+    pub(crate) fn freeze(&mut self, on: bool) {
+        self.flow = if on { Flow::Frozen } else { Flow::Free };
     }
 
     /// What is left of a port whose instance is gone.
     pub(super) fn vacant() -> Self {
         Self::new(OutputSpec::of(Kinds::NONE))
+    }
+
+    /// Whether it feeds nothing.
+    #[inline]
+    pub(super) fn is_alone(&self) -> bool {
+        matches!(self.to, Fed::Nothing)
     }
 
     #[inline]

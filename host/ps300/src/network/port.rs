@@ -93,7 +93,7 @@ impl InputPort {
     pub(super) fn take_first(&mut self, token: &impl Token) -> bool {
         let free = !self.constant && self.front.is_none();
         if free {
-            token.put(&mut self.front);
+            token.copy_to(&mut self.front);
         }
         free
     }
@@ -112,6 +112,16 @@ impl InputPort {
                 Some(Value::Real(_)) => std::mem::forget(self.front.take()),
                 _ => self.front = None,
             }
+            return false;
+        }
+        self.move_up()
+    }
+
+    /// The same where a real number is known to be the oldest.
+    #[inline]
+    pub(super) fn pop_real(&mut self) -> bool {
+        if self.behind.is_none() {
+            std::mem::forget(self.front.take()); // There is nothing to drop.
             return false;
         }
         self.move_up()

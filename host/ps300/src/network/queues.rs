@@ -32,6 +32,8 @@ pub(super) struct Head {
     pub(super) each: bool,
     /// Whether it is in the run queue.
     pub(super) queued: bool,
+    /// The one input that is active, from 1; 0 where there is another number of them.
+    pub(super) sole: u8,
 }
 
 impl Head {
@@ -206,7 +208,7 @@ impl Queues {
         let behind = &mut self.behind;
         let mut take = |port: &mut InputPort| {
             if port.constant {
-            } else if port.pop() {
+            } else if port.pop_real() {
                 *behind -= 1;
             } else {
                 head.missing += 1;
@@ -234,7 +236,29 @@ impl Queues {
     }
 
     /// Takes one message from every active queue, or of an instance that any one message sets off, that one.
+    /// Then it is ready again if others had been waiting behind.
+    #[inline]
     pub(super) fn consume(&mut self, id: InstanceId) {
+        let Some(head) = self.heads.get_mut(id.0 as usize) else {
+            return;
+        };
+        let Some(sole) = head.sole.checked_sub(1).filter(|_| head.missing == 0) else {
+            return self.consume_each(id);
+        };
+        if let Some(port) = self.inputs.get_mut(head.first_input as usize + usize::from(sole)) {
+            if !port.pop() {
+                head.missing = 1;
+                return;
+            }
+            self.behind -= 1;
+            if !head.queued {
+                head.queued = true;
+                self.ready.push(id);
+            }
+        }
+    }
+
+    fn consume_each(&mut self, id: InstanceId) {
         let Some(head) = self.heads.get_mut(id.0 as usize) else {
             return;
         };
@@ -250,6 +274,7 @@ impl Queues {
                 head.missing = head.missing.saturating_add(1);
             }
         }
+        self.enqueue_if_ready(id);
     }
 
     /// Takes the one message that did not fit: at `input`, or, where that is a constant, at the first
@@ -264,6 +289,7 @@ impl Queues {
         if let Some(at) = at {
             self.pop(id, at);
         }
+        self.enqueue_if_ready(id);
     }
 
     fn pop(&mut self, id: InstanceId, at: usize) {
@@ -297,8 +323,14 @@ impl Queues {
         let unsatisfied = ports.iter().filter(|port| !port.satisfied()).count();
         // If all are constant, nothing is left that could set it off.
         let missing = unsatisfied + usize::from(ports.iter().all(|port| port.constant));
+        let mut active = (1..).zip(ports).filter(|(_, port)| !port.constant);
+        let sole = match (active.next(), active.next()) {
+            (Some((number, _)), None) => number,
+            _ => 0,
+        };
         if let Some(head) = self.heads.get_mut(id.0 as usize) {
             head.missing = missing as u8;
+            head.sole = sole;
         }
     }
 
@@ -323,7 +355,7 @@ impl Queues {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::intrinsic::{Does, InputSpec, Inputs, Outputs, Spares, table};
+    use crate::intrinsic::{Does, InputSpec, Inputs, Outputs, Sent, table};
 
     const NUMBERS: [f64; 9] = [
         0.0,
@@ -350,11 +382,13 @@ mod tests {
                 port
             })
             .collect();
-        let (mut sent, mut errands, mut spares) = (Vec::new(), Vec::new(), Spares::default());
-        let mut outputs = Outputs::new(&mut sent, &mut errands, &mut spares);
+        let (mut sent, mut errands) = (Sent::default(), Vec::new());
+        let mut outputs = Outputs::new(&mut [], &mut sent, &mut errands);
         assert_eq!(fire(&Inputs::new(&ports, 0), &mut outputs), Ok(()));
         assert!(errands.is_empty());
-        sent
+        assert!(sent.outputs.iter().all(|output| output & Sent::APART != 0));
+        let outputs = sent.outputs.iter().map(|output| *output as u8);
+        outputs.zip(sent.apart).collect()
     }
 
     #[test]

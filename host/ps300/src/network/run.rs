@@ -17,7 +17,7 @@ use super::batch::Allowance;
 use super::connection::{Inlet, InstanceId, Outlet, SinkId};
 use super::instance::Behaviour;
 use super::{About, Cause, Network};
-use crate::intrinsic::{Fault, Inputs, Now, Outputs};
+use crate::intrinsic::{Fault, Inputs, Now, Outputs, Sent};
 use crate::language::{Input, Name};
 use crate::pick::Pick;
 use crate::structure::NodeId;
@@ -57,16 +57,14 @@ pub(crate) enum Refusal {
 
 /// What the network reaches beyond its instances.
 pub(crate) trait Surroundings {
-    /// Hands a message to a display node.
-    fn feed(&mut self, to: NodeId, input: Input, value: &Value) -> Result<(), Refusal>;
+    /// Hands a message to a display node. Gives the instance that sends for it, if the message makes it send.
+    fn feed(&mut self, to: NodeId, input: Input, value: &Value) -> Result<Option<InstanceId>, Refusal>;
     /// The name of a display node, and what reports say of it.
     fn node(&self, to: NodeId) -> (Name, About);
     /// Sees a message that reached the host.
     fn sink_arrived(&mut self, sink: SinkId, value: &Value);
     /// Looks up an input by name, for F:SEND.
     fn inlet(&self, name: &str, input: Input) -> Option<Inlet>;
-    /// The instance that sends for a node, if a message at this input of it makes it send.
-    fn answers(&self, to: NodeId, input: Input) -> Option<InstanceId>;
     /// What is drawn in a window of the screen, given by its middle and half its size.
     fn picks(&self, window: [DVec2; 2], detailed: bool) -> Arc<[Pick]>;
     /// What an XFORM node marks, or why there is nothing.
@@ -144,14 +142,15 @@ impl Network {
             return;
         };
         head.queued = false;
-        if let Some((at, mut result)) = self.queues.fire_scalar(id) {
-            self.send_at(Outlet { from: id, output: 1 }, at as usize, &mut result, outside);
+        if let Some((at, result)) = self.queues.fire_scalar(id) {
+            self.send_at(Outlet { from: id, output: 1 }, at as usize, result, outside);
         } else if self.queues.is_ready(id) {
             // If not, SETUP CNESS has come between becoming ready and firing.
             self.fire_any(id, outside);
         }
     }
 
+    #[inline(never)]
     fn fire_any(&mut self, id: InstanceId, outside: &mut impl Surroundings) {
         match self.act(id, Behaviour::fire) {
             Ok(()) => self.queues.consume(id),
@@ -174,7 +173,6 @@ impl Network {
                 self.queues.consume_offending(id, input);
             }
         }
-        self.queues.enqueue_if_ready(id);
         self.send_all(id, outside);
     }
 
@@ -187,28 +185,41 @@ impl Network {
         let Some(behaviour) = self.behaviours.get_mut(id.0 as usize) else {
             return Ok(());
         };
-        let size = self.queues.head(id).map_or(0, |head| head.size);
-        let inputs = Inputs::new(self.queues.ports(id), size);
-        let mut outputs = Outputs::new(&mut self.sent, &mut self.errands, &mut self.spares);
+        let Some(head) = self.queues.head(id) else {
+            return Ok(());
+        };
+        let (inputs, outputs) = (
+            self.queues.inputs.get(head.inputs()),
+            self.outputs.get_mut(head.outputs()),
+        );
+        let (ports, outputs) = (inputs.unwrap_or_default(), outputs.unwrap_or_default());
+        let inputs = Inputs::new(ports, head.size);
+        let mut outputs = Outputs::new(outputs, &mut self.sent, &mut self.errands);
         act(behaviour, &inputs, &mut outputs)
+    }
+
+    /// Sends the next of the messages that lie apart.
+    #[cold]
+    fn send_apart(&mut self, from: InstanceId, output: u8, outside: &mut impl Surroundings) {
+        if !self.sent.apart.is_empty() {
+            let value = self.sent.apart.remove(0);
+            self.send_out(Outlet { from, output }, value, outside);
+        }
     }
 
     /// Delivers what an instance has computed.
     fn send_all(&mut self, id: InstanceId, outside: &mut impl Surroundings) {
-        let mut sent = std::mem::take(&mut self.sent);
-        for (output, value) in &mut sent {
-            self.send_out(
-                Outlet {
-                    from: id,
-                    output: *output,
-                },
-                value,
-                outside,
-            );
-            self.spares.keep(value);
+        let first = self.queues.head(id).map_or(0, |head| head.first_output as usize);
+        let mut place = 0;
+        while let Some(&output) = self.sent.outputs.get(place) {
+            place += 1;
+            if output & Sent::APART == 0 {
+                self.send_last(first + usize::from(output) - 1, outside);
+            } else {
+                self.send_apart(id, output as u8, outside);
+            }
         }
-        sent.clear();
-        self.sent = sent;
+        self.sent.outputs.clear();
         if !self.errands.is_empty() {
             let mut errands = std::mem::take(&mut self.errands);
             for errand in errands.drain(..) {

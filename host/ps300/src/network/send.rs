@@ -1,18 +1,80 @@
 //! What is sent: from an output to everything it feeds, each with its own copy.
 
 use super::connection::{Inlet, InstanceId, Outlet, SinkId, input_text};
-use super::queues::{Full, Hindrance};
+use super::queues::{Full, Hindrance, Queues};
 use super::run::{Refusal, Surroundings};
 use super::token::Token;
 use super::{About, Cause, Network, Watched};
 use crate::intrinsic::Errand;
 use crate::language::Input;
+use crate::structure::NodeId;
 use crate::value::Value;
 
+/// Why a message was not simply taken where it went.
+enum Rest {
+    Hindered(InstanceId, u8, Hindrance),
+    Sink(SinkId, u8),
+    Refused(NodeId, Input, Refusal),
+    /// Not tried.
+    Untried(Inlet),
+}
+
+/// Hands a message to what takes it at once, as nearly everything does.
+#[inline]
+fn pass(
+    queues: &mut Queues,
+    inlet: Inlet,
+    value: &Value,
+    outside: &mut impl Surroundings,
+) -> Result<(), Rest> {
+    let (to, input) = match inlet {
+        Inlet::Function { to, input } => (to, input),
+        Inlet::Node { to, input } => match outside.feed(to, input, value) {
+            Ok(None) => return Ok(()),
+            Ok(Some(sender)) => (sender, 1),
+            Err(refusal) => return Err(Rest::Refused(to, input, refusal)),
+        },
+        Inlet::Sink { to, input } => return Err(Rest::Sink(to, input)),
+    };
+    queues
+        .deliver(to, input, value)
+        .map_err(|hindrance| Rest::Hindered(to, input, hindrance))
+}
+
+/// Does so in the order of CONNECT, from the inlet at `from` up to one that does not take it, whose place is said.
+#[inline]
+fn pass_all(
+    queues: &mut Queues,
+    inlets: &[Inlet],
+    from: usize,
+    value: &Value,
+    outside: &mut impl Surroundings,
+) -> Option<(usize, Rest)> {
+    for (place, &inlet) in inlets.iter().enumerate().skip(from) {
+        if let Err(rest) = pass(queues, inlet, value, outside) {
+            return Some((place, rest));
+        }
+    }
+    None
+}
+
+/// The same for a real number, which functions take nearly always.
+#[inline]
+fn pass_real(queues: &mut Queues, inlets: &[Inlet], x: f64) -> Option<(usize, Rest)> {
+    for (place, &inlet) in inlets.iter().enumerate() {
+        let Inlet::Function { to, input } = inlet else {
+            return Some((place, Rest::Untried(inlet)));
+        };
+        if let Err(hindrance) = queues.deliver(to, input, &x) {
+            return Some((place, Rest::Hindered(to, input, hindrance)));
+        }
+    }
+    None
+}
+
 impl Network {
-    /// Sends on an output: to every destination in the order of CONNECT. The message may be another afterwards,
-    /// of which only the memory is of use.
-    pub(crate) fn send_out(&mut self, from: Outlet, value: &mut Value, outside: &mut impl Surroundings) {
+    /// Sends on an output: to every destination in the order of CONNECT.
+    pub(crate) fn send_out(&mut self, from: Outlet, value: Value, outside: &mut impl Surroundings) {
         let Some(at) = self.output_at(from) else {
             return;
         };
@@ -29,56 +91,76 @@ impl Network {
         &mut self,
         from: Outlet,
         at: usize,
-        token: &mut impl Token,
+        message: impl Token,
         outside: &mut impl Surroundings,
     ) {
-        if !token.is_finite() {
-            return self.report_message(from.from, Cause::NotFinite, || Some((None, token.value())));
+        if !message.is_finite() {
+            return self.report_message(from.from, Cause::NotFinite, || Some((None, message.into_value())));
         }
         let Some(output) = self.outputs.get_mut(at) else {
             return;
         };
-        if (output.frozen || output.watched) && !self.look_at(from, at, token) {
+        if output.is_plain() {
+            message.put(&mut output.last);
+        } else if !self.look_at(from, at, message) {
             return;
         }
-        let mut next = 0;
-        while let Some((inlet, hindrance)) = self.deliver_some(at, &mut next, token) {
-            token.lend(|value| self.deliver_otherwise(inlet, hindrance, value, outside));
-        }
-        if let Some(output) = self.outputs.get_mut(at) {
-            self.delivered += output.to().len() as u64;
-            output.sent += 1;
-            token.leave(&mut output.last);
-        }
+        self.send_last(at, outside);
     }
 
-    /// Delivers to functions with empty queues, as nearly all are, up to the first inlet that is another.
+    /// Sends what an output holds as its last message.
     #[inline]
-    fn deliver_some(
-        &mut self,
-        at: usize,
-        next: &mut usize,
-        token: &impl Token,
-    ) -> Option<(Inlet, Option<Hindrance>)> {
-        for &inlet in self.outputs.get(at)?.to().get(*next..)? {
-            *next += 1;
-            let Inlet::Function { to, input } = inlet else {
-                return Some((inlet, None));
-            };
-            if let Err(hindrance) = self.queues.deliver(to, input, token) {
-                return Some((inlet, Some(hindrance)));
-            }
+    pub(super) fn send_last(&mut self, at: usize, outside: &mut impl Surroundings) {
+        let Some(output) = self.outputs.get_mut(at) else {
+            return;
+        };
+        output.has_left();
+        output.sent += 1;
+        if !output.is_alone() {
+            self.send_to_all(at, outside);
         }
-        None
     }
 
-    /// Withholds or records; true if the message goes on.
+    #[inline(never)]
+    fn send_to_all(&mut self, at: usize, outside: &mut impl Surroundings) {
+        let Some(output) = self.outputs.get(at) else {
+            return;
+        };
+        let inlets = output.to();
+        self.delivered += inlets.len() as u64;
+        let rest = match &output.last {
+            Some(Value::Real(x)) => pass_real(&mut self.queues, inlets, *x),
+            Some(value) => pass_all(&mut self.queues, inlets, 0, value, outside),
+            None => None,
+        };
+        if let Some((place, rest)) = rest {
+            self.send_on(at, place, rest, outside);
+        }
+    }
+
+    /// Sees to the inlet that did not simply take the last message, and goes on behind it.
+    #[inline(never)]
+    fn send_on(&mut self, at: usize, place: usize, rest: Rest, outside: &mut impl Surroundings) {
+        let Some(value) = self.outputs.get(at).and_then(|output| output.last.clone()) else {
+            return;
+        };
+        let mut next = Some((place, rest));
+        while let Some((place, rest)) = next {
+            self.see_to(rest, &value, outside);
+            let Some(output) = self.outputs.get(at) else {
+                return;
+            };
+            next = pass_all(&mut self.queues, output.to(), place + 1, &value, outside);
+        }
+    }
+
+    /// Withholds or records; true if the message goes on, which then is the output's last.
     #[cold]
-    fn look_at(&mut self, from: Outlet, at: usize, token: &impl Token) -> bool {
+    fn look_at(&mut self, from: Outlet, at: usize, token: impl Token) -> bool {
         let Some(output) = self.outputs.get_mut(at) else {
             return false;
         };
-        if output.frozen {
+        if output.is_frozen() {
             output.withheld = output.withheld.saturating_add(1);
             return false;
         }
@@ -92,50 +174,43 @@ impl Network {
                 value: token.value(),
             });
         }
+        if let Some(output) = self.outputs.get_mut(at) {
+            token.put(&mut output.last);
+        }
         true
     }
 
     /// Hands one message to one input; what does not fit is dropped and reported.
     pub(crate) fn deliver(&mut self, inlet: Inlet, value: &Value, outside: &mut impl Surroundings) {
         self.delivered += 1;
-        let hindrance = match inlet {
-            Inlet::Function { to, input } => match self.queues.deliver(to, input, value) {
-                Ok(()) => return,
-                Err(hindrance) => Some(hindrance),
-            },
-            _ => None,
-        };
-        self.deliver_otherwise(inlet, hindrance, value, outside);
+        if let Err(rest) = pass(&mut self.queues, inlet, value, outside) {
+            self.see_to(rest, value, outside);
+        }
     }
 
-    fn deliver_otherwise(
-        &mut self,
-        inlet: Inlet,
-        hindrance: Option<Hindrance>,
-        value: &Value,
-        outside: &mut impl Surroundings,
-    ) {
-        match (inlet, hindrance) {
-            (Inlet::Function { to, input }, Some(hindrance)) => {
-                self.deliver_hindered(to, input, hindrance, value);
-            }
-            (Inlet::Function { .. }, None) => {}
-            (Inlet::Sink { to, input }, _) => self.deliver_to_sink(to, input, value, outside),
-            (Inlet::Node { to, input }, _) => {
-                if let Err(refusal) = outside.feed(to, input, value) {
-                    let (name, about) = outside.node(to);
-                    let cause = match refusal {
-                        Refusal::Kind(expected) => Cause::Kind {
-                            input,
-                            expected,
-                            got: value.kind(),
-                        },
-                        Refusal::Domain(why) => Cause::Domain { why },
-                    };
-                    self.reports.note(&name, || about.message(input, value), cause);
-                } else if let Some(sender) = outside.answers(to, input) {
-                    self.deliver(Inlet::Function { to: sender, input: 1 }, value, outside);
-                }
+    fn see_to(&mut self, rest: Rest, value: &Value, outside: &mut impl Surroundings) {
+        let rest = match rest {
+            Rest::Untried(inlet) => match pass(&mut self.queues, inlet, value, outside) {
+                Ok(()) => return,
+                Err(rest) => rest,
+            },
+            rest => rest,
+        };
+        match rest {
+            Rest::Untried(_) => {}
+            Rest::Hindered(to, input, hindrance) => self.deliver_hindered(to, input, hindrance, value),
+            Rest::Sink(to, input) => self.deliver_to_sink(to, input, value, outside),
+            Rest::Refused(to, input, refusal) => {
+                let (name, about) = outside.node(to);
+                let cause = match refusal {
+                    Refusal::Kind(expected) => Cause::Kind {
+                        input,
+                        expected,
+                        got: value.kind(),
+                    },
+                    Refusal::Domain(why) => Cause::Domain { why },
+                };
+                self.reports.note(&name, || about.message(input, value), cause);
             }
         }
     }
@@ -221,7 +296,7 @@ impl Network {
             },
             Errand::Fetch { name, output } => {
                 match outside.variable(&name).and_then(|id| self.held(id)).cloned() {
-                    Some(mut value) => self.send_out(Outlet { from, output }, &mut value, outside),
+                    Some(value) => self.send_out(Outlet { from, output }, value, outside),
                     None => self.report(
                         from,
                         Cause::Unknown {

@@ -122,7 +122,7 @@ impl Network {
     /// Withholds what an output would send, or lets it send again.
     pub(crate) fn freeze(&mut self, from: Outlet, on: bool) {
         if let Ok(output) = self.output_mut(from) {
-            output.frozen = on;
+            output.freeze(on);
         }
     }
 

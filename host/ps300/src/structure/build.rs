@@ -4,7 +4,7 @@ use super::curve::Curve;
 use super::effect::Effect;
 use super::font::Typeface;
 use super::polygon::Polygons;
-use super::{Body, Change, Drawn, NoView, NodeId, Structure};
+use super::{Body, Change, Drawn, NoView, NodeId, Structure, effect};
 use crate::language::{Member, Name, Node, Operation, Polygon};
 use crate::names::{NameId, Names};
 
@@ -27,7 +27,11 @@ const NESTED_MAX: usize = 64;
 impl Change {
     pub(crate) fn new(operation: Operation, names: &mut Names) -> Result<Self, NoView> {
         let effect = Effect::of(&operation, names)?;
-        Ok(Self { operation, effect })
+        Ok(Self {
+            inputs: effect::accepts(&operation),
+            operation,
+            effect,
+        })
     }
 }
 

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::edit;
-use super::{Body, NodeId, Structure, effect};
+use super::{Body, NodeId, Slot, Structure};
 use crate::language::Input;
 use crate::network::Refusal;
 use crate::value::{Kind, Kinds, Value};
@@ -19,10 +19,7 @@ impl Structure {
     /// What an input takes; nothing if the node has no such input.
     pub(crate) fn accepts(&self, id: NodeId, input: Input) -> Option<Kinds> {
         match (&self.slot(id)?.body, input) {
-            (Body::Operation { change, .. }, Input::Number(number)) => {
-                let inputs = effect::accepts(&change.operation);
-                inputs.get(usize::from(number).checked_sub(1)?).copied()
-            }
+            (Body::Operation { change, .. }, input) => change.accepts(input),
             (Body::Vectors { .. }, Input::Append) => Some(POINTS),
             (Body::Curve { .. }, Input::Append)
             | (Body::Vectors { .. } | Body::Curve { .. }, Input::Last | Input::Number(1..))
@@ -40,7 +37,7 @@ impl Structure {
     /// The inputs a node has, in words.
     pub(crate) fn inputs_text(&self, id: NodeId) -> String {
         match self.slot(id).map(|slot| &slot.body) {
-            Some(Body::Operation { change, .. }) => match effect::accepts(&change.operation).len() {
+            Some(Body::Operation { change, .. }) => match change.inputs.len() {
                 0 => "none".to_owned(),
                 1 => "<1>".to_owned(),
                 count => format!("<1> to <{count}>"),
@@ -58,6 +55,26 @@ impl Structure {
 
     /// Takes a message.
     pub(crate) fn feed(&mut self, id: NodeId, input: Input, value: &Value) -> Result<(), Refusal> {
+        if let Some(Some(Slot { body, told, .. })) = self.slots.get_mut(id.0 as usize)
+            && let Body::Operation { change, .. } = body
+        {
+            let accepted = change.accepts(input).unwrap_or(Kinds::NONE);
+            if !accepted.has(value.kind()) {
+                return Err(Refusal::Kind(accepted));
+            }
+            self.revision += 1;
+            change.effect.feed(&change.operation, input, value)?;
+            match change.effect.outcome(input, value) {
+                Some(outcome) => told.note(input, &outcome),
+                None => told.note(input, value),
+            }
+            return Ok(());
+        }
+        self.edit(id, input, value)
+    }
+
+    /// Changes data.
+    fn edit(&mut self, id: NodeId, input: Input, value: &Value) -> Result<(), Refusal> {
         let accepted = self.accepts(id, input).unwrap_or(Kinds::NONE);
         if !accepted.has(value.kind()) {
             return Err(Refusal::Kind(accepted));
@@ -66,14 +83,6 @@ impl Structure {
             return Ok(());
         };
         match &mut slot.body {
-            Body::Operation { change, .. } => {
-                change.effect.feed(&change.operation, input, value)?;
-                match change.effect.outcome(input, value) {
-                    Some(outcome) => slot.told.note(input, &outcome),
-                    None => slot.told.note(input, value),
-                }
-                Ok(())
-            }
             Body::Vectors { list, .. } => edit::vectors(list.now_mut(), input, value),
             Body::Curve { curve, .. } => edit::curve(curve.now_mut(), input, value),
             Body::Characters(characters) => edit::characters(characters.now_mut(), input, value),

@@ -34,8 +34,11 @@ use font::Typeface;
 use polygon::Polygons;
 use state::Told;
 
-use crate::language::{Attributes, Characters, Illumination, Labels, Name, Operation, Pattern, VectorList};
+use crate::language::{
+    Attributes, Characters, Illumination, Input, Labels, Name, Operation, Pattern, VectorList,
+};
 use crate::names::NameId;
+use crate::value::Kinds;
 
 /// A node of the display tree. Not reused while anything refers to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -56,7 +59,18 @@ pub(crate) struct Slot {
 /// An operation as written and what it now does.
 pub(crate) struct Change {
     pub(crate) operation: Operation,
+    /// What its inputs take, from <1>.
+    inputs: &'static [Kinds],
     effect: Effect,
+}
+
+impl Change {
+    fn accepts(&self, input: Input) -> Option<Kinds> {
+        let Input::Number(number) = input else {
+            return None;
+        };
+        self.inputs.get(usize::from(number).checked_sub(1)?).copied()
+    }
 }
 
 /// What a node is.

@@ -15,8 +15,10 @@ pub(crate) struct Told(Vec<(Input, Value)>);
 impl Told {
     pub(super) fn note(&mut self, input: Input, value: &Value) {
         let same = |(at, known): &(Input, Value)| *at == input && known.kind() == value.kind();
+        if let Some(last) = self.0.last_mut().filter(|last| same(last)) {
+            return last.1.take_over(value);
+        }
         match self.0.iter().position(same) {
-            Some(at) if at + 1 == self.0.len() => self.0[at].1.clone_from(value),
             Some(at) => {
                 self.0.remove(at);
                 self.0.push((input, value.clone()));

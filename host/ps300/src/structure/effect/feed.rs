@@ -16,6 +16,11 @@ impl Effect {
         input: Input,
         value: &Value,
     ) -> Result<(), Refusal> {
+        // What dials send nearly always.
+        if let (Self::Model(model), Value::Matrix3(m)) = (&mut *self, value) {
+            *model = DMat4::from_mat3(**m);
+            return Ok(());
+        }
         let second = input == Input::Number(2);
         match (&mut *self, value) {
             (Self::Rendering(rendering), value) => rendering.feed(second, value)?,
