@@ -134,8 +134,8 @@ impl ServoBus {
         }
     }
 
-    /// Those that know their turn answer one after the other in the order of their numbers; an AX or MX answers at
-    /// once, whoever else does; an SCS does not answer.
+    /// Those that know their turn answer one after the other in the order of their numbers; an AX, an MX or an SCS
+    /// answers at once, whoever else does.
     fn ping_all(&mut self, at_ns: u64, heard: Heard) {
         let baud = self.options.baud;
         let hearing = |servo: &&Servo| servo.is_addressed(heard, baud) && !servo.silent;
@@ -145,8 +145,7 @@ impl ServoBus {
         self.begin_answer();
         for place in 0..self.servos.len() {
             let servo = &self.servos[place];
-            let blurts = servo.facts.protocol == ServoProtocol::Dynamixel1 && !servo.facts.broadcast_ping;
-            if !hearing(&servo) || !blurts {
+            if !hearing(&servo) || servo.facts.broadcast_ping {
                 continue;
             }
             let (id, error, delay_ns) = (servo.id(), servo.error_byte(None), servo.delay_ns());

@@ -18,6 +18,9 @@ const PHASE_FINE_SPEED: i64 = 0x04;
 /// How much coarser a unit of speed is without the bit above: 50 steps a second to one.
 const COARSE_SPEED: f64 = 50.0;
 
+/// Slower than this a shaft counts as standing. Ours.
+const REST_COUNTS_PER_SEC: f64 = 1.0;
+
 /// What the goals mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
@@ -147,7 +150,9 @@ impl Servo {
             [Reg::AnticlockwiseMargin, Reg::AnticlockwiseDeadZone]
         };
         let margin = regs.into_iter().map(|reg| self.table.get(reg)).sum::<i64>();
-        let near = margin > 0 && (counts - here).abs() <= margin as f64 && self.plant.velocity == 0.0;
+        let near = margin > 0
+            && (counts - here).abs() <= margin as f64
+            && self.plant.velocity.abs() < REST_COUNTS_PER_SEC;
         Demand::Position {
             counts: if near { here } else { counts },
             shape: self.shape(),

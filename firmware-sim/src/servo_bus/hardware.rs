@@ -4,6 +4,7 @@
 
 use super::reg::Reg;
 use super::servo::Servo;
+use device_profiles::{HardwareFault, ServoProfile};
 
 /// How long full effort lasts before it counts as overload. Ours; the maker says "a certain time".
 const OVERLOAD_STEPS: u32 = 1000;
@@ -14,10 +15,23 @@ const CABLE_DROP_VOLTS: f64 = 0.4;
 /// Volts below which the controller itself stops. Ours.
 const BROWN_OUT_VOLTS: f64 = 3.0;
 
-/// Bits of Hardware Error Status and Shutdown.
-const VOLTAGE: u8 = 1 << 0;
-const OVERHEATING: u8 = 1 << 2;
-const OVERLOAD: u8 = 1 << 5;
+/// The bits of this model's alarms and of its Shutdown register.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AlarmBits {
+    voltage: u8,
+    heat: u8,
+    overload: u8,
+}
+
+impl AlarmBits {
+    pub(super) fn of(profile: &ServoProfile) -> Self {
+        Self {
+            voltage: profile.fault_mask(HardwareFault::InputVoltage),
+            heat: profile.fault_mask(HardwareFault::Overheating),
+            overload: profile.fault_mask(HardwareFault::Overload),
+        }
+    }
+}
 
 /// Where a servo's power comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,9 +108,10 @@ impl Servo {
             tenths < self.table.get(Reg::MinVoltageLimit) || tenths > self.table.get(Reg::MaxVoltageLimit);
         let hot = self.plant.heat.housing_c > self.table.get(Reg::TemperatureLimit) as f64;
         let bit = |holds: bool, bit: u8| if holds { bit } else { 0 };
-        let now = bit(bad_voltage, VOLTAGE)
-            | bit(hot, OVERHEATING)
-            | bit(self.strained_steps >= OVERLOAD_STEPS, OVERLOAD);
+        let bits = self.facts.alarm_bits;
+        let now = bit(bad_voltage, bits.voltage)
+            | bit(hot, bits.heat)
+            | bit(self.strained_steps >= OVERLOAD_STEPS, bits.overload);
         let shutdown = self.table.get(Reg::Shutdown) as u8;
         let old = self.alarms();
         // What Shutdown names is latched until a reboot; the rest passes with its cause.

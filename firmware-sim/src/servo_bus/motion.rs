@@ -46,16 +46,29 @@ impl Servo {
     fn gains(&self) -> Gains {
         let gain = |reg: Reg| self.table.get(reg) as f64;
         let wide = self.table.row(Reg::PositionPGain).is_some_and(|row| row.size > 1);
-        let limit = |reg: Reg| {
-            let full = self
-                .table
-                .row(reg)
-                .and_then(|row| row.init)
-                .filter(|&init| init > 0);
-            full.map_or(1.0, |full| (gain(reg) / full as f64).clamp(0.0, 1.0))
+        let full = self
+            .table
+            .row(Reg::TorqueLimit)
+            .and_then(|row| row.init)
+            .unwrap_or(0);
+        let allowed = match self.table.row(Reg::GoalTorque) {
+            Some(row) => gain(Reg::TorqueLimit).min(self.table.value(row).abs() as f64),
+            None => gain(Reg::TorqueLimit),
         };
-        let duty_max = limit(Reg::TorqueLimit);
-        if wide {
+        let duty_max = if full > 0 {
+            (allowed / full as f64).clamp(0.0, 1.0)
+        } else {
+            1.0
+        };
+        let slope = gain(Reg::ComplianceSlope);
+        if slope > 0.0 {
+            // Full effort at the slope's end ("Compliance Slope"), nothing in between remembered.
+            Gains {
+                p: 1.0 / slope,
+                duty_max,
+                ..Gains::default()
+            }
+        } else if wide {
             Gains {
                 p: gain(Reg::PositionPGain) / 128.0 / 885.0,
                 i: gain(Reg::PositionIGain) / 65_536.0 / 885.0 / STEP_SECS,

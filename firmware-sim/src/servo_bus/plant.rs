@@ -48,7 +48,7 @@ pub(super) enum Order {
 
 /// The position loop, per count: duty for a count of error, for a count a second of the error's change, for a
 /// count second of its sum, for a count a second of the trajectory; and the most it may ask for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Gains {
     pub(super) p: f64,
     pub(super) i: f64,

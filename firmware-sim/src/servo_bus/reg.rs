@@ -79,6 +79,7 @@ known_registers! {
     BackupReady = Named("Backup Ready"),
     ClockwiseMargin = Named("CW Compliance Margin"),
     AnticlockwiseMargin = Named("CCW Compliance Margin"),
+    ComplianceSlope = Named("CW Compliance Slope"),
     ClockwiseDeadZone = Named("CW Dead Zone"),
     AnticlockwiseDeadZone = Named("CCW Dead Zone"),
 }

@@ -3,7 +3,7 @@
 //! A servo advances on a fixed grid of plant steps, so that it comes to the same state however often it is
 //! looked at. Source: the makers' control table pages, through the profile.
 
-use super::hardware::Supply;
+use super::hardware::{AlarmBits, Supply};
 use super::heard::Framing;
 use super::plant::{MotorFacts, Plant, Printed, STEP_NS, STEP_SECS};
 use super::reg::Reg;
@@ -46,6 +46,7 @@ pub(super) struct Facts {
     pub(super) bulk_read: bool,
     pub(super) broadcast_ping: bool,
     pub(super) eeprom_deaf_ns_per_byte: u64,
+    pub(super) alarm_bits: AlarmBits,
 }
 
 /// A servo on the bus.
@@ -245,7 +246,7 @@ impl Servo {
         self.table.get(Reg::BusWatchdog) == WATCHDOG_TRIPPED
     }
 
-    /// What is wrong with it, in bits that are the same in every protocol: 0 voltage, 2 heat, 5 overload.
+    /// What is wrong with it, in the model's own bits.
     pub(super) fn alarms(&self) -> u8 {
         self.alarms
     }
@@ -346,6 +347,7 @@ impl Facts {
             bulk_read: profile.bulk_read,
             broadcast_ping: profile.broadcast_ping,
             eeprom_deaf_ns_per_byte: u64::from(profile.eeprom_deaf_us_per_byte.unwrap_or(0)) * 1000,
+            alarm_bits: AlarmBits::of(profile),
         }
     }
 }

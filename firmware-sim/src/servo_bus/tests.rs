@@ -1,9 +1,12 @@
 //! The bus as a host hears it: documented packets, every instruction, time, motion, faults.
 
+mod families;
 mod faults;
+mod feetech;
 mod instructions;
 mod motion;
 mod physics;
+mod protocol1;
 mod timing;
 mod troubles;
 mod vectors;
