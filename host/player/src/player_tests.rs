@@ -1,10 +1,10 @@
 //! The state machine on a scripted far end: what fits when, and that nothing ever jumps.
 
 mod world {
-    pub(super) use device::servo::framing::decoder::Decoder;
     pub(super) use device::servo::framing::dynamixel2::encode;
+    pub(super) use device::servo::framing::{Decoder, Heard};
     pub(super) use device::{Boundary, Clock, Instant, Transport, TransportError, VirtualClock};
-    pub(super) use device_profiles::ServoProfile;
+    pub(super) use device_profiles::{ServoProfile, ServoProtocol};
 }
 // Only what the player needs of it is used here.
 #[allow(dead_code)]

@@ -2,10 +2,10 @@
 
 mod world {
     pub(super) use crate::clock::{Clock, Instant, VirtualClock};
-    pub(super) use crate::servo::framing::decoder::Decoder;
     pub(super) use crate::servo::framing::dynamixel2::encode;
+    pub(super) use crate::servo::framing::{Decoder, Heard};
     pub(super) use crate::transport::{Boundary, Transport, TransportError};
-    pub(super) use device_profiles::ServoProfile;
+    pub(super) use device_profiles::{ServoProfile, ServoProtocol};
 }
 #[path = "responder.rs"]
 mod responder;

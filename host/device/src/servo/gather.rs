@@ -4,8 +4,7 @@
 //! one may stay silent too. After each silence the line is given time, so that a late answer cannot be taken
 //! for the answer to the next question.
 
-use super::framing::decoder::StatusError;
-use super::framing::dynamixel2;
+use super::framing::{StatusError, dynamixel2};
 use super::line::{Answer, Line, Progress};
 use super::table::Block;
 use crate::clock::Instant;

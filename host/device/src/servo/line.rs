@@ -3,10 +3,11 @@
 //! Deadlines are worked out from the time the bytes need on the wire, the servos' return delay and the
 //! adapter's slack, so that a servo that is not there costs the slack and no more.
 
-use super::framing::decoder::{Decoder, Status};
 use super::framing::dynamixel2::STATUS_OVERHEAD_BYTES;
+use super::framing::{Decoder, Heard, Status};
 use crate::clock::Instant;
 use crate::transport::{Transport, TransportError};
+use device_profiles::ServoProtocol;
 use std::time::Duration;
 
 /// Bits on the wire for a byte: start, eight, stop.
@@ -87,7 +88,7 @@ impl Line {
     pub(super) fn new(transport: Box<dyn Transport>, baud: u32, slack: Duration) -> Self {
         Self {
             transport,
-            decoder: Decoder::new(),
+            decoder: Decoder::new(ServoProtocol::Dynamixel2),
             baud: baud.max(1),
             slack,
             return_delay: RETURN_DELAY_MAX,
@@ -212,6 +213,7 @@ impl Line {
         self.wire_free = now.after(total + GUARD);
         self.deadline = now.after(total + self.slack);
         self.counters.sent_bytes += self.out.len() as u64;
+        self.decoder.sent(&self.out);
         self.transport.write(&self.out)
     }
 
@@ -272,8 +274,8 @@ impl Line {
             self.heard = now;
             self.counters.received_bytes += count as u64;
             let bytes = chunk.get(..count).unwrap_or_default();
-            self.decoder.push(bytes, &mut |packet| {
-                if let Some(status) = packet.status() {
+            self.decoder.push(bytes, &mut |heard| {
+                if let Heard::Status(status) = heard {
                     take(status);
                 }
             });
@@ -304,10 +306,14 @@ impl Line {
             sent,
             ..
         } = self;
-        let mut sort = |packet: super::framing::decoder::Packet<'_>| {
-            let Some(status) = packet.status() else {
-                counters.echoes += 1;
-                return;
+        let mut sort = |heard: Heard<'_>| {
+            let status = match heard {
+                Heard::Status(status) => status,
+                Heard::Echo => {
+                    counters.echoes += 1;
+                    return;
+                }
+                Heard::Instruction(_) | Heard::Damaged { .. } => return,
             };
             let whole = status.data.len() == *data_bytes || status.error.number() != 0;
             match asked

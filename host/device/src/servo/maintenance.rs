@@ -5,8 +5,8 @@
 
 use super::bus::{Bus, BusError};
 use super::event::Armed;
-use super::framing::decoder::StatusError;
-use super::framing::dynamixel2::{self, BROADCAST_ID, FramingError, ID_MAX, STATUS_OVERHEAD_BYTES};
+use super::framing::dynamixel2::{self, BROADCAST_ID, ID_MAX, STATUS_OVERHEAD_BYTES};
+use super::framing::{FramingError, StatusError};
 use super::line::{Line, Progress};
 use super::register::{Field, RegisterError, encode_checked};
 use crate::clock::{Clock, Instant};
@@ -61,7 +61,7 @@ pub enum MaintenanceError {
         baud: u32,
     },
     /// The servo says no.
-    #[error("servo {id} answered \"{}\" (error {}): check the value, and that torque is off for EEPROM registers", error.name(), error.number())]
+    #[error("servo {id} refused: {error}")]
     Refused {
         /// The id.
         id: u8,

@@ -4,7 +4,8 @@
 //! driver's own framing, so it proves nothing about bytes; the simulator in `firmware-sim` does that.
 
 use super::world::{
-    Boundary, Clock, Decoder, Instant, ServoProfile, Transport, TransportError, VirtualClock, encode,
+    Boundary, Clock, Decoder, Heard, Instant, ServoProfile, ServoProtocol, Transport, TransportError,
+    VirtualClock, encode,
 };
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -174,7 +175,7 @@ impl Responder {
     pub(crate) fn transport(&self) -> Box<dyn Transport> {
         Box::new(End {
             responder: self.clone(),
-            decoder: Decoder::new(),
+            decoder: Decoder::new(ServoProtocol::Dynamixel2),
         })
     }
 }
@@ -220,8 +221,10 @@ impl Transport for End {
                 address: "test".to_owned(),
             });
         }
-        self.decoder.push(bytes, &mut |packet| {
-            desk.obey(now, packet.id, packet.instruction, packet.params);
+        self.decoder.push(bytes, &mut |heard| {
+            if let Heard::Instruction(packet) = heard {
+                desk.obey(now, packet.id, packet.instruction, packet.params);
+            }
         });
         Ok(())
     }

@@ -3,11 +3,11 @@
 use super::{BAUD, Boxed, Cycle, SERVOS, TICK, line, served};
 use crate::simulated::{POSITION, Served, members};
 use anyhow::{Context, ensure};
-use device::servo::framing::decoder::Decoder;
-use device::servo::framing::dynamixel2;
+use device::servo::framing::{Decoder, dynamixel2};
 use device::servo::{Armed, Bus, BusSettings, Commanded, Goal};
 use device::transport::serial;
 use device::{Clock, MonotonicClock, Transport};
+use device_profiles::ServoProtocol;
 use firmware_sim::ServoBus;
 use std::time::Duration;
 
@@ -125,7 +125,7 @@ fn framing(
 ) -> Boxed {
     Box::new(Framing {
         transport,
-        decoder: Decoder::new(),
+        decoder: Decoder::new(ServoProtocol::Dynamixel2),
         clock,
         address: if block > 4 { TICK } else { POSITION },
         block,

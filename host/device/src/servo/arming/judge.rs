@@ -26,7 +26,7 @@ impl Bus {
                     refused.push((
                         at,
                         Why::Answer {
-                            error: answer.error.name(),
+                            error: answer.error,
                             address: block.address,
                         },
                     ));

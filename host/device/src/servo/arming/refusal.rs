@@ -1,5 +1,6 @@
 //! Why servos cannot be armed, in words that name the servo and the remedy.
 
+use crate::servo::framing::StatusError;
 use crate::servo::member::error_names;
 
 /// Why one servo cannot be armed, and what to do about it.
@@ -59,8 +60,8 @@ pub enum Why {
     /// It answered an instruction with an error.
     #[error("answered \"{error}\" to reading address {address}; check model and firmware")]
     Answer {
-        /// The e-manual's name of the error.
-        error: &'static str,
+        /// What it says.
+        error: StatusError,
         /// First byte read.
         address: u16,
     },

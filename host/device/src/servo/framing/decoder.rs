@@ -1,90 +1,54 @@
-//! From bytes to Dynamixel Protocol 2.0 packets, a piece at a time.
+//! From bytes to packets, a piece at a time, in any of the protocols.
 //!
-//! Source: ROBOTIS e-manual, "DYNAMIXEL Protocol 2.0", order of reception: header (not
-//! `FF FF FD FD`), id, length, that many bytes, CRC, and only then the stuffing is taken out.
-//! Garbage is normal: it is skipped and counted, and a packet that fails its CRC costs no
-//! byte of the packets inside or behind it.
+//! Garbage is normal: it is skipped and counted, and a packet whose checksum is wrong costs no byte of the packets
+//! inside or behind it. Told what is sent ([`Decoder::sent`]), the decoder knows its own words when the adapter
+//! gives them back, believes no length that no answer can have, and takes the one packet that answers a fast read
+//! apart into one status for each servo. Nothing is allocated after construction, whatever comes.
 
-use super::dynamixel2::{BODY_AT, HEADER, STATUS, Stuffing, crc};
+use super::asked::{Asked, Source};
+use super::dynamixel2::{BODY_AT, STATUS, Stuffing};
+use super::fast::{FastRun, HEAD_BYTES, Step};
+use super::front::{CRC_BYTES, Front, LENGTH_MAX, stuffed, summed};
+use super::status::{Status, StatusError};
+use super::summed::PREFIX_BYTES;
+use device_profiles::ServoProtocol;
 
-/// Longest packet accepted unless told otherwise, in bytes of the length field.
-/// A whole control table of an X-series servo (662 bytes) fits, stuffed at its worst.
-const LENGTH_MAX_DEFAULT: usize = 1024;
-/// Shortest value of the length field: instruction and CRC.
-const LENGTH_MIN: usize = 3;
-/// Header, id and length field.
-const PREFIX_BYTES: usize = BODY_AT;
-/// Bytes of the CRC.
-const CRC_BYTES: usize = 2;
+/// Bytes taken in before the next look at what they make.
+const PIECE_BYTES: usize = 512;
 
-/// One packet with a right CRC, its parameters unstuffed.
+/// An instruction heard on the line, its parameters unstuffed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Packet<'a> {
-    /// Who it is for, or who answers.
+    /// Who it is for.
     pub id: u8,
-    /// Instruction byte; [`STATUS`] in an answer.
+    /// Instruction byte.
     pub instruction: u8,
-    /// Everything between the instruction and the CRC; in an answer the error byte comes first.
+    /// Everything between the instruction and the checksum.
     pub params: &'a [u8],
 }
 
-/// An answer, taken apart.
+/// Something whole that was heard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Status<'a> {
-    /// Who answers.
-    pub id: u8,
-    /// What is wrong, if anything.
-    pub error: StatusError,
-    /// The data behind the error byte.
-    pub data: &'a [u8],
+pub enum Heard<'a> {
+    /// A servo's answer. One for each servo of a fast read.
+    Status(Status<'a>),
+    /// Our own instruction, given back by the adapter.
+    Echo,
+    /// An instruction that was not sent here: another host's.
+    Instruction(Packet<'a>),
+    /// In the answer to a fast read, this servo's part arrived damaged.
+    Damaged {
+        /// Who was to answer there.
+        id: u8,
+    },
 }
 
-impl<'a> Packet<'a> {
-    /// The packet as an answer; none when it is an instruction (our own echo, or another host's).
-    pub fn status(&self) -> Option<Status<'a>> {
-        if self.instruction != STATUS {
-            return None;
-        }
-        let (&error, data) = self.params.split_first()?;
-        Some(Status {
-            id: self.id,
-            error: StatusError(error),
-            data,
-        })
-    }
-}
-
-/// The error byte of an answer: bit 7 says that a hardware error is latched,
-/// the lower bits number what was wrong with the instruction (0: nothing).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct StatusError(
-    /// As received.
-    pub u8,
-);
-
-impl StatusError {
-    /// A bit of Hardware Error Status is set; the data are good all the same.
-    pub fn alert(self) -> bool {
-        self.0 & 0x80 != 0
-    }
-
-    /// 0 for success, else the number in the e-manual's table.
-    pub fn number(self) -> u8 {
-        self.0 & 0x7f
-    }
-
-    /// The e-manual's name of the number, for messages.
-    pub fn name(self) -> &'static str {
-        match self.number() {
-            0 => "no error",
-            1 => "result fail",
-            2 => "instruction error",
-            3 => "CRC error",
-            4 => "data range error",
-            5 => "data length error",
-            6 => "data limit error",
-            7 => "access error",
-            _ => "unknown error number",
+impl<'a> Heard<'a> {
+    /// The answer, if it is one.
+    pub fn status(self) -> Option<Status<'a>> {
+        match self {
+            Heard::Status(status) => Some(status),
+            _ => None,
         }
     }
 }
@@ -92,51 +56,50 @@ impl StatusError {
 /// What went by so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct DecoderCounters {
-    /// Packets given out.
+    /// Answers and instructions given out.
     pub packets: u64,
-    /// Headers whose packet had an impossible length, a wrong CRC or no stuffing where it must be.
+    /// Our own packets heard back.
+    pub echoes: u64,
+    /// Headers whose packet had an impossible length, a wrong checksum or no stuffing where it must be, and damaged
+    /// parts of fast reads.
     pub rejected: u64,
     /// Bytes that belonged to no packet.
     pub skipped_bytes: u64,
 }
 
-/// Takes bytes in pieces of any size and gives out packets.
-/// Keeps at most one packet's bytes; allocates only while its two buffers grow to that.
+/// Takes bytes in pieces of any size and gives out what they make. See the module's opening.
 #[derive(Debug, Clone)]
 pub struct Decoder {
+    protocol: ServoProtocol,
+    /// Never more than one packet and one piece.
     waiting: Vec<u8>,
-    params: Vec<u8>,
-    length_max: usize,
+    /// Bytes at the front of `waiting` that are done with.
+    done: usize,
+    plain: Vec<u8>,
+    asked: Asked,
+    fast: Option<FastRun>,
     counters: DecoderCounters,
-}
-
-impl Default for Decoder {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-/// What the bytes at the front of the buffer are.
-enum Front {
-    /// Not the start of a packet: drop so many bytes.
-    Skip(usize),
-    /// A header whose packet cannot be right: drop its first byte and look again.
-    Reject,
-    /// More bytes are needed to tell.
-    Short,
-    /// A packet of so many bytes in all.
-    Whole(usize),
+    counters_when_sent: DecoderCounters,
 }
 
 impl Decoder {
-    /// For packets of up to 1024 bytes.
-    pub fn new() -> Self {
+    /// For one protocol. Servos of several on one line need a decoder each.
+    pub fn new(protocol: ServoProtocol) -> Self {
         Self {
-            waiting: Vec::with_capacity(LENGTH_MAX_DEFAULT),
-            params: Vec::with_capacity(LENGTH_MAX_DEFAULT),
-            length_max: LENGTH_MAX_DEFAULT,
+            protocol,
+            waiting: Vec::with_capacity(BODY_AT + LENGTH_MAX + PIECE_BYTES),
+            done: 0,
+            plain: Vec::with_capacity(LENGTH_MAX),
+            asked: Asked::new(protocol),
+            fast: None,
             counters: DecoderCounters::default(),
+            counters_when_sent: DecoderCounters::default(),
         }
+    }
+
+    /// The protocol it understands.
+    pub fn protocol(&self) -> ServoProtocol {
+        self.protocol
     }
 
     /// What went by so far.
@@ -144,95 +107,195 @@ impl Decoder {
         self.counters
     }
 
+    /// Takes note of the whole packets that are put on the line now. What remains of the answer to a fast read
+    /// before is given up.
+    pub fn sent(&mut self, packets: &[u8]) {
+        self.fast = None;
+        self.asked.note(packets);
+        self.counters_when_sent = self.counters;
+    }
+
     /// Forgets an unfinished packet, which is counted as skipped bytes.
     pub fn clear(&mut self) {
-        self.counters.skipped_bytes += self.waiting.len() as u64;
+        self.fast = None;
+        self.counters.skipped_bytes += self.rest().len() as u64;
         self.waiting.clear();
+        self.done = 0;
     }
 
-    /// Takes the next bytes and gives out every packet that they complete.
-    pub fn push(&mut self, bytes: &[u8], emit: &mut dyn FnMut(Packet<'_>)) {
-        self.waiting.extend_from_slice(bytes);
-        self.advance(emit);
-    }
-
-    /// Nothing more will come for the packet at the front: looks for packets behind its header.
-    pub fn give_up(&mut self, emit: &mut dyn FnMut(Packet<'_>)) {
-        while !self.waiting.is_empty() {
-            self.counters.rejected += 1;
-            self.drop_front(1);
-            self.advance(emit);
+    /// Takes the next bytes and gives out everything that they complete.
+    pub fn push(&mut self, bytes: &[u8], emit: &mut dyn FnMut(Heard<'_>)) {
+        for piece in bytes.chunks(PIECE_BYTES) {
+            self.waiting.drain(..self.done);
+            self.done = 0;
+            self.waiting.extend_from_slice(piece);
+            self.advance(false, emit);
         }
     }
 
-    fn advance(&mut self, emit: &mut dyn FnMut(Packet<'_>)) {
+    /// Nothing more will come for the packet at the front: looks for packets behind its header.
+    pub fn give_up(&mut self, emit: &mut dyn FnMut(Heard<'_>)) {
+        self.advance(true, emit);
+        while !self.rest().is_empty() {
+            self.counters.rejected += 1;
+            self.skip(1);
+            self.advance(true, emit);
+        }
+    }
+
+    fn rest(&self) -> &[u8] {
+        self.waiting.get(self.done..).unwrap_or_default()
+    }
+
+    fn skip(&mut self, bytes: usize) {
+        self.counters.skipped_bytes += bytes as u64;
+        self.done += bytes;
+    }
+
+    fn advance(&mut self, ended: bool, emit: &mut dyn FnMut(Heard<'_>)) {
         loop {
+            if self.fast.is_some() {
+                if !self.advance_fast(ended, emit) {
+                    return;
+                }
+                continue;
+            }
             match self.front() {
                 Front::Short => return,
-                Front::Skip(bytes) => self.drop_front(bytes),
+                Front::Skip(bytes) => self.skip(bytes),
                 Front::Reject => {
                     self.counters.rejected += 1;
-                    self.drop_front(1);
+                    self.skip(1);
                 }
-                Front::Whole(bytes) => self.take(bytes, emit),
+                Front::Whole(bytes) => {
+                    self.take(bytes, emit);
+                    self.done += bytes;
+                }
+                Front::Fast => {
+                    let head = self
+                        .waiting
+                        .get(self.done..self.done + HEAD_BYTES)
+                        .unwrap_or_default();
+                    let length = self.asked.fast_length().unwrap_or(0);
+                    self.fast = Some(FastRun::new(head, length));
+                    self.done += HEAD_BYTES;
+                }
             }
         }
     }
 
     fn front(&self) -> Front {
-        let header = self
-            .waiting
-            .iter()
-            .zip(HEADER)
-            .take_while(|(have, want)| *have == want)
-            .count();
-        if header < HEADER.len() {
-            if header == self.waiting.len() {
-                return Front::Short;
+        let bytes = self.rest();
+        let answer_max = self.asked.answer_length_max();
+        match self.protocol {
+            ServoProtocol::Dynamixel2 => stuffed(bytes, answer_max, self.asked.fast_length()),
+            _ if self.asked.begins_echo(bytes) => summed(bytes, LENGTH_MAX),
+            _ => summed(bytes, answer_max),
+        }
+    }
+
+    /// Gives out a packet at the front whose checksum is right.
+    fn take(&mut self, bytes: usize, emit: &mut dyn FnMut(Heard<'_>)) {
+        let undisturbed = self.counters == self.counters_when_sent;
+        let packet = self.waiting.get(self.done..self.done + bytes).unwrap_or_default();
+        let source = self.asked.source(packet, undisturbed);
+        let (id, body) = match self.protocol {
+            ServoProtocol::Dynamixel2 => (packet.get(4), packet.get(BODY_AT..bytes - CRC_BYTES)),
+            _ => (packet.get(2), packet.get(PREFIX_BYTES..bytes - 1)),
+        };
+        let (id, body) = (id.copied().unwrap_or_default(), body.unwrap_or_default());
+        let body = if self.protocol == ServoProtocol::Dynamixel2 {
+            if !unstuff(body, &mut self.plain) {
+                self.counters.rejected += 1;
+                self.counters.skipped_bytes += bytes as u64;
+                return;
             }
-            let next = self.waiting.iter().skip(1).position(|&byte| byte == HEADER[0]);
-            return Front::Skip(next.map_or(self.waiting.len(), |at| at + 1));
-        }
-        let &[_, _, _, _, id, low, high, ..] = self.waiting.as_slice() else {
-            return Front::Short;
-        };
-        let length = usize::from(u16::from_le_bytes([low, high]));
-        if id == 0xff || length < LENGTH_MIN || length > self.length_max {
-            return Front::Reject;
-        }
-        let whole = PREFIX_BYTES + length;
-        let Some(packet) = self.waiting.get(..whole) else {
-            return Front::Short;
-        };
-        let (covered, sum) = packet.split_at(whole - CRC_BYTES);
-        if sum == crc(covered).to_le_bytes() {
-            Front::Whole(whole)
+            self.plain.as_slice()
         } else {
-            Front::Reject
+            body
+        };
+        let heard = match source {
+            Source::Own => Some(Heard::Echo),
+            Source::Servo => status(self.protocol, id, body).map(Heard::Status),
+            Source::Foreign => body.split_first().map(|(&instruction, params)| {
+                Heard::Instruction(Packet {
+                    id,
+                    instruction,
+                    params,
+                })
+            }),
+        };
+        match heard {
+            Some(Heard::Echo) => self.counters.echoes += 1,
+            Some(_) => self.counters.packets += 1,
+            None => {
+                self.counters.rejected += 1;
+                self.counters.skipped_bytes += bytes as u64;
+            }
+        }
+        if let Some(heard) = heard {
+            emit(heard);
         }
     }
 
-    fn take(&mut self, bytes: usize, emit: &mut dyn FnMut(Packet<'_>)) {
-        let id = self.waiting.get(4).copied().unwrap_or_default();
-        let body = self.waiting.get(BODY_AT..bytes - CRC_BYTES).unwrap_or_default();
-        let plain = unstuff(body, &mut self.params);
-        if plain && let Some((&instruction, params)) = self.params.split_first() {
-            self.counters.packets += 1;
-            emit(Packet {
-                id,
-                instruction,
-                params,
-            });
-        } else {
-            self.counters.rejected += 1;
+    /// One step through the answer to a fast read. False when more bytes are needed.
+    fn advance_fast(&mut self, ended: bool, emit: &mut dyn FnMut(Heard<'_>)) -> bool {
+        let Some(run) = &mut self.fast else {
+            return true;
+        };
+        let list = self.asked.fast();
+        let name = |index: usize| list.get(index).map_or(super::BROADCAST_ID, |&(id, _)| id);
+        let rest = self.waiting.get(self.done..).unwrap_or_default();
+        match run.step(rest, list, ended) {
+            Step::Short => return false,
+            Step::Skip(bytes) => {
+                self.counters.skipped_bytes += bytes as u64;
+                self.done += bytes;
+            }
+            Step::Block {
+                lead,
+                bytes,
+                index,
+                damaged,
+            } => {
+                if let Some(damaged) = damaged {
+                    self.counters.rejected += 1;
+                    emit(Heard::Damaged { id: name(damaged) });
+                }
+                let block = rest.get(lead..lead + bytes - CRC_BYTES).unwrap_or_default();
+                if let &[error, id, ref data @ ..] = block {
+                    self.counters.packets += 1;
+                    let error = StatusError::new(self.protocol, error);
+                    emit(Heard::Status(Status { id, error, data }));
+                }
+                debug_assert!(block.get(1) == Some(&name(index)));
+                self.counters.skipped_bytes += lead as u64;
+                self.done += lead + bytes;
+            }
+            Step::End { damaged } => {
+                self.fast = None;
+                if let Some(damaged) = damaged {
+                    self.counters.rejected += 1;
+                    emit(Heard::Damaged { id: name(damaged) });
+                }
+            }
         }
-        self.waiting.drain(..bytes);
+        true
     }
+}
 
-    fn drop_front(&mut self, bytes: usize) {
-        self.counters.skipped_bytes += bytes as u64;
-        self.waiting.drain(..bytes);
-    }
+/// The body of a packet as an answer. In protocol 2.0 the instruction comes before the error.
+fn status(protocol: ServoProtocol, id: u8, body: &[u8]) -> Option<Status<'_>> {
+    let body = match protocol {
+        ServoProtocol::Dynamixel2 => body.strip_prefix(&[STATUS])?,
+        _ => body,
+    };
+    let (&error, data) = body.split_first()?;
+    Some(Status {
+        id,
+        error: StatusError::new(protocol, error),
+        data,
+    })
 }
 
 /// Takes out the `FD` behind each `FF FF FD`. False when one is missing: the sender does not
