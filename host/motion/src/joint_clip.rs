@@ -188,6 +188,20 @@ impl JointClip {
     /// The angles at a time since the first row, radians, one for each joint as far as `angles` has room.
     /// Continuous with its first derivative inside; the ends are held. NaN reads as the start.
     pub fn sample(&self, secs: f64, angles: &mut [f64]) {
+        let (row, x) = self.place(secs);
+        for (joint, angle) in angles.iter_mut().enumerate().take(self.joints.len()) {
+            *angle = self.between(row, joint, x);
+        }
+    }
+
+    /// One joint's angle at a time, as [`JointClip::sample`]; none for a joint that is not in the clip.
+    pub fn sample_joint(&self, joint: usize, secs: f64) -> Option<f64> {
+        let (row, x) = self.place(secs);
+        (joint < self.joints.len()).then(|| self.between(row, joint, x))
+    }
+
+    /// The row before a time, and how much of the way to the next is gone.
+    fn place(&self, secs: f64) -> (usize, f64) {
         let last = self.rows() - 1;
         let at = if secs > 0.0 {
             (secs / self.period_secs).min(last as f64)
@@ -195,10 +209,7 @@ impl JointClip {
             0.0
         };
         let row = (at as usize).min(last.saturating_sub(1));
-        let x = at - row as f64;
-        for (joint, angle) in angles.iter_mut().enumerate().take(self.joints.len()) {
-            *angle = self.between(row, joint, x);
-        }
+        (row, at - row as f64)
     }
 
     /// One angle, `x` of the way from `row` to the next.

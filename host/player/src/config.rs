@@ -41,6 +41,9 @@ pub struct PlayerConfig {
     pub strain_max: Duration,
     /// Without any order for so long while there is torque, the operator is gone; none: not watched.
     pub operator_max: Option<Duration>,
+    /// Without [`crate::Order::Heartbeat`] for so long the puppet cannot be armed, and with torque it is a fault;
+    /// none: no heartbeat is needed.
+    pub heartbeat_max: Option<Duration>,
     /// Longest time that a stop waits for joints to stand before it ends anyway.
     pub braking_max: Duration,
 }
@@ -62,6 +65,7 @@ impl Default for PlayerConfig {
             strain_rad: 0.6,
             strain_max: Duration::from_secs(1),
             operator_max: None,
+            heartbeat_max: None,
             braking_max: Duration::from_secs(2),
         }
     }

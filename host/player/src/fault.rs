@@ -47,7 +47,7 @@ pub enum Fault {
         why: String,
     },
     /// A hardware error is latched.
-    #[error("{place} reports {}; remove the cause, then reboot it", error_names(*bits))]
+    #[error("{place} reports {}; remove the cause, then switch its power off and on, or reboot it: dialrig servo reboot --id {} --port PORT", error_names(*bits), place.id)]
     ServoError {
         /// Which servo.
         place: Place,
@@ -82,6 +82,9 @@ pub enum Fault {
     /// No sign of life from whoever is in charge.
     #[error("no sign of life from the operator; reset, then arm again")]
     OperatorGone,
+    /// The heartbeat that this puppet needs has stopped.
+    #[error("the heartbeat has stopped; see to whoever sends it, reset, then arm again")]
+    HeartbeatLost,
 }
 
 impl Fault {
@@ -99,6 +102,7 @@ impl Fault {
             Self::TorqueLost(_) => "torque-lost",
             Self::Refused(_) => "refused",
             Self::OperatorGone => "operator-gone",
+            Self::HeartbeatLost => "heartbeat-lost",
         }
     }
 }

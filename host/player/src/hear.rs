@@ -11,6 +11,11 @@ impl Player {
     pub(crate) fn hear(&mut self, at: usize, event: BusEvent, now: Instant) {
         match event {
             BusEvent::ArmingRefused => self.arming_refused(at, now),
+            BusEvent::Released => {
+                if let Some(line) = self.lines.all.get_mut(at) {
+                    line.released();
+                }
+            }
             // Pinned anew after a pause: the joints may stand elsewhere, so what is played is approached again.
             BusEvent::Armed => {
                 if let Some(playback) = &mut self.playback {

@@ -18,6 +18,8 @@ pub(crate) struct Line {
     pub(crate) lost: bool,
     /// Torque is to go off, and the line has not taken it yet.
     pub(crate) release_due: bool,
+    /// Servos may have been given torque, and not all have said since that it is off.
+    pub(crate) unconfirmed: bool,
 }
 
 impl Line {
@@ -34,6 +36,7 @@ impl Line {
             limited,
             lost: false,
             release_due: false,
+            unconfirmed: false,
         }
     }
 
@@ -59,6 +62,22 @@ impl Line {
             *wanted = pose.get(*joint).copied().unwrap_or(f64::NAN);
         }
         self.bus.command(Goal::Positions(&self.wanted), now, &mut note)
+    }
+
+    /// Begins to arm; from here on nobody knows of torque but the servos.
+    pub(crate) fn arm(&mut self, now: Instant) -> Result<(), BusError> {
+        self.lost = false;
+        self.unconfirmed = true;
+        self.bus.begin_arming(now)
+    }
+
+    /// Torque was switched off: whether each servo has said so.
+    pub(crate) fn released(&mut self) {
+        let off = |member| {
+            let supply = self.bus.supply(member);
+            supply.is_some_and(|supply| supply.torque == Some(false))
+        };
+        self.unconfirmed &= !(0..self.joints.len()).all(off);
     }
 
     /// Switches torque off, or remembers to try again.
@@ -140,6 +159,11 @@ impl Lines {
         bus.goal_rad(member)
     }
 
+    /// When goals were last sent to a joint's bus; none without torque.
+    pub(crate) fn goals_at(&self, joint: usize) -> Option<Instant> {
+        self.seat(joint)?.0.goals_at()
+    }
+
     pub(crate) fn joint_report(&self, joint: usize) -> JointReport {
         let Some(seat) = self.seats.get(joint) else {
             return JointReport::default();
@@ -161,6 +185,7 @@ impl Lines {
             error_bits: supply.error_bits,
             presence: line.bus.presence(seat.member),
             limited: line.limited.get(seat.member).copied().unwrap_or_default(),
+            ..JointReport::default()
         }
     }
 
@@ -186,6 +211,12 @@ impl Lines {
             supplies.into_iter().any(|supply| supply.torque == Some(true))
         };
         self.all.iter().any(|line| !line.lost && torque(line))
+    }
+
+    /// Whether torque may be on where nothing can be done about it any more.
+    pub(crate) fn torque_unknown(&self) -> bool {
+        let beyond = |line: &Line| line.lost || line.bus.armed() == Armed::No;
+        self.all.iter().any(|line| line.unconfirmed && beyond(line))
     }
 
     /// Whether every goal that could still move stands.

@@ -20,8 +20,10 @@
 mod approach;
 mod config;
 mod fault;
+mod following;
 mod hear;
 mod joints;
+pub mod lag;
 mod obey;
 mod order;
 mod playback;
@@ -34,6 +36,7 @@ mod watch;
 
 pub use config::{Ending, PlayerConfig};
 pub use fault::{Fault, Place};
+pub use lag::Tracking;
 pub use order::{Order, Rejection};
 pub use player::{Player, State};
 pub use puppet::{Puppet, PuppetBus, PuppetError, Seat};

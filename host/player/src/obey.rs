@@ -9,10 +9,21 @@ use device::Instant;
 impl Player {
     /// Follows an order, or says why not.
     pub(crate) fn obey(&mut self, order: Order, now: Instant) {
-        self.heard_operator = now;
+        // A heartbeat is somebody else's sign of life.
+        if !matches!(order, Order::Heartbeat) {
+            self.heard_operator = now;
+        }
         let verb = order.verb();
         let fits = match (&order, &self.state) {
             (Order::Alive, _) | (Order::Release, State::Released) => Ok(()),
+            (Order::Heartbeat, _) => {
+                self.heartbeat_at = Some(now);
+                Ok(())
+            }
+            (Order::CompensateLag(on), _) => {
+                self.report.compensates_lag = *on;
+                Ok(())
+            }
             (Order::Stop, _) => {
                 self.fault(Fault::StopPressed, now);
                 Ok(())
@@ -29,6 +40,9 @@ impl Player {
             }
             (_, State::Faulted(_)) => Err("reset first"),
             (Order::Reset, _) => Err("there is no fault to leave"),
+            (Order::Arm, State::Released) if self.heartbeat_is_missing(now) => {
+                Err("this puppet needs a heartbeat, and none comes; start whoever sends it")
+            }
             (Order::Arm, State::Released) if self.lines.all_loose() => {
                 self.arm(now);
                 Ok(())
@@ -81,8 +95,7 @@ impl Player {
             let Some(line) = self.lines.all.get_mut(at) else {
                 continue;
             };
-            line.lost = false;
-            if let Err(error) = line.bus.begin_arming(now) {
+            if let Err(error) = line.arm(now) {
                 self.lose(at, error.to_string(), now);
                 return;
             }

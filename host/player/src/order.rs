@@ -33,6 +33,10 @@ pub enum Order {
     Reset,
     /// The operator is there.
     Alive,
+    /// A sign of life from outside, for puppets that need one ([`crate::PlayerConfig::heartbeat_max`]).
+    Heartbeat,
+    /// Whether goals are taken ahead of the clip's time by each joint's lag. Moves nothing that stands.
+    CompensateLag(bool),
 }
 
 /// Why an order was not followed.
@@ -91,7 +95,8 @@ impl Order {
             Self::Release => "release",
             Self::Stop => "stop",
             Self::Reset => "reset",
-            Self::Alive => "note a sign of life",
+            Self::Alive | Self::Heartbeat => "note a sign of life",
+            Self::CompensateLag(_) => "compensate lag",
         }
     }
 }

@@ -30,6 +30,22 @@ struct Playing {
     seamless: bool,
 }
 
+impl Playing {
+    /// Tells each joint's angle so many seconds of playing after this moment.
+    fn each(&self, ahead_secs: &dyn Fn(usize) -> f64, tell: &mut dyn FnMut(usize, f64)) {
+        let duration = self.clip.duration_secs();
+        for (place, joint) in self.joints.iter().enumerate() {
+            let mut secs = self.secs + ahead_secs(*joint) * self.speed;
+            if self.looped && self.seamless && duration > 0.0 {
+                secs = secs.rem_euclid(duration);
+            }
+            if let Some(angle) = self.clip.sample_joint(place, secs) {
+                tell(*joint, angle);
+            }
+        }
+    }
+}
+
 /// One thing being played.
 #[derive(Debug, Clone)]
 pub(crate) struct Playback {
@@ -165,6 +181,30 @@ impl Playback {
                     *wanted = *angle;
                 }
             }
+        }
+    }
+
+    /// The pose of this moment with each joint as many seconds further on as `leads` says.
+    pub(crate) fn pose_ahead(&mut self, leads: &[f64], wanted: &mut [f64]) {
+        match &self.source {
+            Source::Clip(playing) if leads.iter().any(|lead| *lead != 0.0) => {
+                playing.each(
+                    &|joint| leads.get(joint).copied().unwrap_or_default(),
+                    &mut |joint, angle| {
+                        if let Some(wanted) = wanted.get_mut(joint) {
+                            *wanted = angle;
+                        }
+                    },
+                );
+            }
+            _ => self.pose(wanted),
+        }
+    }
+
+    /// Tells the angle of each joint that the clip moves, `ahead_secs` from this moment. A live pose has no future.
+    pub(crate) fn ahead(&self, ahead_secs: f64, tell: &mut dyn FnMut(usize, f64)) {
+        if let Source::Clip(playing) = &self.source {
+            playing.each(&|_| ahead_secs, tell);
         }
     }
 

@@ -6,6 +6,7 @@
 use crate::config::{Ending, PlayerConfig};
 use crate::fault::Fault;
 use crate::joints::Lines;
+use crate::lag::Follower;
 use crate::order::Order;
 use crate::playback::Playback;
 use crate::puppet::{Puppet, PuppetError};
@@ -80,6 +81,11 @@ pub struct Player {
     /// Since when ticks have come often enough to hear every servo.
     pub(crate) listening_since: Instant,
     pub(crate) heard_operator: Instant,
+    pub(crate) heartbeat_at: Option<Instant>,
+    /// How each joint follows.
+    pub(crate) followers: Vec<Follower>,
+    /// Seconds by which each joint's goal is ahead of the clip's time.
+    pub(crate) leads: Vec<f64>,
     pub(crate) strained_since: Vec<Option<Instant>>,
     /// Arming was refused since the last report, perhaps between two ticks.
     pub(crate) refused: bool,
@@ -107,6 +113,9 @@ impl Player {
             late_run: 0,
             listening_since: Instant::ZERO,
             heard_operator: Instant::ZERO,
+            heartbeat_at: None,
+            followers: vec![Follower::default(); count],
+            leads: vec![0.0; count],
             strained_since: vec![None; count],
             refused: false,
             report: Report {
@@ -175,6 +184,7 @@ impl Player {
         self.watch(now);
         self.proceed(now, dt);
         self.drive(now);
+        self.note_following(now);
         self.fill_report(now);
         self.report.arming_refused = std::mem::take(&mut self.refused);
         &self.report
@@ -300,7 +310,12 @@ impl Player {
     }
 
     fn fill_report(&mut self, now: Instant) {
-        let Self { report, lines, .. } = self;
+        let Self {
+            report,
+            lines,
+            followers,
+            ..
+        } = self;
         report.at = now;
         if report.state != self.state {
             report.state.clone_from(&self.state);
@@ -312,6 +327,7 @@ impl Player {
             .unwrap_or_default();
         report.clip_secs = self.playback.as_ref().and_then(Playback::secs);
         report.torque = !lines.all_loose() || lines.any_torque();
+        report.torque_unknown = lines.torque_unknown();
         report.stale_discarded = 0;
         report.timeouts = 0;
         for line in &lines.all {
@@ -321,6 +337,9 @@ impl Player {
         }
         for (at, joint) in report.joints.iter_mut().enumerate() {
             *joint = lines.joint_report(at);
+            let tracking = followers.get(at).map(Follower::tracking).unwrap_or_default();
+            joint.lag_secs = tracking.lag_secs;
+            joint.tracking = tracking;
         }
     }
 
@@ -334,7 +353,7 @@ impl Player {
                 self.state = State::Holding;
                 self.stance = Stance::Stand;
             }
-            State::Playing => self.play_further(dt_secs),
+            State::Playing => self.play_further(now, dt_secs),
             State::Faulted(_) if self.reset_pending && self.stopping.is_none() && self.lines.all_loose() => {
                 self.reset_pending = false;
                 self.state = State::Released;

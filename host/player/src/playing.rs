@@ -3,10 +3,12 @@
 //! The same three steps whatever led here: a new clip, a seek, a loop's seam, a live pose, or servos that had
 //! to be pinned again after a pause of the host.
 
+use crate::lag::Follower;
 use crate::order::{Order, Rejection};
 use crate::playback::{Playback, Step};
 use crate::player::{Player, Stance, State};
 use crate::report::Phase;
+use device::Instant;
 use std::time::Duration;
 
 impl Player {
@@ -58,6 +60,7 @@ impl Player {
         };
         match result {
             Ok(Some(playback)) => {
+                self.followers.iter_mut().for_each(Follower::count_anew);
                 self.playback = Some(playback);
                 self.state = State::Playing;
                 self.stance = Stance::Stand;
@@ -68,7 +71,7 @@ impl Player {
     }
 
     /// One period of playing: sets the wishes of this tick.
-    pub(crate) fn play_further(&mut self, dt_secs: f64) {
+    pub(crate) fn play_further(&mut self, now: Instant, dt_secs: f64) {
         let Some(mut playback) = self.playback.take() else {
             self.state = State::Holding;
             self.stance = Stance::Stand;
@@ -77,11 +80,14 @@ impl Player {
         if !self.lines.all_armed() {
             playback.phase = Phase::Pinning;
         }
+        if playback.phase != Phase::Running {
+            self.clip_interrupted();
+        }
         match playback.phase {
             Phase::Idle | Phase::Pinning | Phase::Braking => self.come_to_stand(&mut playback),
             Phase::Approaching => self.approach(&mut playback, dt_secs),
             Phase::Running => {
-                if self.run_on(&mut playback, dt_secs) == Step::Ended {
+                if self.run_on(&mut playback, now, dt_secs) == Step::Ended {
                     // The last pose stays the wish, so that the joints arrive at it.
                     self.state = State::Holding;
                     return;
@@ -122,6 +128,7 @@ impl Player {
         let over = playback.approach.is_over();
         if over && self.has_arrived(playback, dt_secs) {
             playback.phase = Phase::Running;
+            self.leads_begin();
         } else {
             playback.approach.blend(&mut self.wanted);
         }
@@ -147,14 +154,16 @@ impl Player {
         settled || playback.waited >= self.config.arrival_patience
     }
 
-    fn run_on(&mut self, playback: &mut Playback, dt_secs: f64) -> Step {
+    fn run_on(&mut self, playback: &mut Playback, now: Instant, dt_secs: f64) -> Step {
         let step = playback.advance(dt_secs);
         if step == Step::Seam {
             playback.phase = Phase::Braking;
             self.stance = Stance::Stand;
-        } else {
-            playback.pose(&mut self.wanted);
+            return step;
         }
+        self.move_leads(dt_secs);
+        playback.pose_ahead(&self.leads, &mut self.wanted);
+        self.note_clip(playback, now);
         step
     }
 }

@@ -1,5 +1,6 @@
 //! What one tick did, for logs and windows. Owned by the player and overwritten each tick.
 
+use crate::lag::Tracking;
 use crate::order::Rejection;
 use crate::player::State;
 use device::Instant;
@@ -89,6 +90,10 @@ pub struct JointReport {
     pub presence: Option<Presence>,
     /// Whether the limits changed this tick's goal.
     pub limited: bool,
+    /// How long after its goals the joint is where they were, seconds; none until it has moved enough.
+    pub lag_secs: Option<f64>,
+    /// How well it follows.
+    pub tracking: Tracking,
 }
 
 /// One tick.
@@ -106,6 +111,10 @@ pub struct Report {
     pub goals_sent: bool,
     /// Whether any bus may have torque.
     pub torque: bool,
+    /// Whether servos that had torque can no longer be asked, or have not answered that it is off.
+    pub torque_unknown: bool,
+    /// Whether goals are taken ahead of time by each joint's lag.
+    pub compensates_lag: bool,
     /// Joints in the puppet's order.
     pub joints: Vec<JointReport>,
     /// How late this tick was.

@@ -55,7 +55,18 @@ impl Player {
         if gone {
             return Some(Fault::OperatorGone);
         }
+        if self.heartbeat_is_missing(now) {
+            return Some(Fault::HeartbeatLost);
+        }
         self.find_silence(now).or_else(|| self.find_strain(now))
+    }
+
+    /// Whether a heartbeat is needed and has not come for too long.
+    pub(crate) fn heartbeat_is_missing(&self, now: Instant) -> bool {
+        let Some(max) = self.config.heartbeat_max else {
+            return false;
+        };
+        self.heartbeat_at.is_none_or(|heard| now.since(heard) > max)
     }
 
     /// Blames the first in the chain of those not heard for too long: behind it, all may be its fault.

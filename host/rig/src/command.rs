@@ -282,8 +282,12 @@ pub enum PuppetCommand {
     Release,
     /// Stops at once and latches until [`PuppetCommand::Reset`]. Always works.
     Stop,
-    /// Leaves the faulted state; torque stays off.
+    /// Leaves the faulted state; torque stays off. Only people do: the network cannot.
     Reset,
+    /// A sign of life from outside, for puppets that need one.
+    Heartbeat,
+    /// Whether goals are taken ahead of time by as much as each joint lags.
+    CompensateLag(bool),
 }
 
 #[cfg(test)]

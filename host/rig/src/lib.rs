@@ -37,6 +37,7 @@ pub use command::{
 pub use device_profiles::Profiles;
 pub use inputs::{InputError, InputSpec};
 pub use live::{Live, LiveError};
+pub use player::Tracking;
 pub use ports::{Found, Ports, TouchError};
 pub use puppet::{Pace, PuppetSpec};
 pub use rig::{Rig, RigError, RigOptions};

@@ -7,7 +7,7 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender, TrySendError, bounded};
 use device::clock::Clock;
 
-use crate::command::Command;
+use crate::command::{Command, PuppetCommand};
 use crate::rig::Rig;
 use crate::snapshot::Snapshot;
 
@@ -19,6 +19,8 @@ const COMMANDS_MAX: usize = 1024;
 /// A rig that runs.
 pub struct Live {
     commands: Sender<Command>,
+    /// Stops, past all that waits.
+    stops: Sender<()>,
     snapshot: Arc<Mutex<Arc<Snapshot>>>,
     stop: Sender<()>,
     thread: Option<JoinHandle<bool>>,
@@ -37,12 +39,13 @@ impl Live {
         mut seen: impl FnMut(&Arc<Snapshot>) + Send + 'static,
     ) -> Result<Self, LiveError> {
         let (commands, inbox) = bounded(COMMANDS_MAX);
+        let (stops, pressed) = bounded(1);
         let (stop, stopped) = bounded(1);
         let first = rig.step(&mut std::iter::empty());
         let snapshot = Arc::new(Mutex::new(first));
         let shown = Arc::clone(&snapshot);
         let thread = std::thread::Builder::new().name("rig".into()).spawn(move || {
-            run(&mut rig, &*clock, &inbox, &stopped, &mut |snapshot| {
+            run(&mut rig, &*clock, &(inbox, pressed), &stopped, &mut |snapshot| {
                 seen(snapshot);
                 *shown.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(snapshot);
             });
@@ -50,6 +53,7 @@ impl Live {
         })?;
         Ok(Self {
             commands,
+            stops,
             snapshot,
             stop,
             thread: Some(thread),
@@ -61,8 +65,14 @@ impl Live {
         Arc::clone(&self.snapshot.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Asks for something. A flood beyond the queue is dropped and said so in the log.
+    /// Asks for something. A flood beyond the queue is dropped and said so in the log, but a stop of the puppet
+    /// goes past whatever waits.
     pub fn send(&self, command: Command) {
+        if command == Command::Puppet(PuppetCommand::Stop) {
+            // A full queue holds a stop already.
+            let _ = self.stops.try_send(());
+            return;
+        }
         if let Err(TrySendError::Full(command)) = self.commands.try_send(command) {
             tracing::warn!("the rig is {COMMANDS_MAX} commands behind; dropped {command:?}");
         }
@@ -91,14 +101,18 @@ impl Drop for Live {
 fn run(
     rig: &mut Rig,
     clock: &dyn Clock,
-    inbox: &Receiver<Command>,
+    (inbox, pressed): &(Receiver<Command>, Receiver<()>),
     stopped: &Receiver<()>,
     seen: &mut dyn FnMut(&Arc<Snapshot>),
 ) {
     let mut due = clock.now();
     while stopped.try_recv().is_err() {
         let waiting = inbox.len();
-        let snapshot = rig.step(&mut inbox.try_iter().take(waiting));
+        let stop = pressed
+            .try_iter()
+            .take(1)
+            .map(|()| Command::Puppet(PuppetCommand::Stop));
+        let snapshot = rig.step(&mut stop.chain(inbox.try_iter().take(waiting)));
         seen(&snapshot);
         due = due.after(PERIOD);
         let now = clock.now();

@@ -40,6 +40,8 @@ pub(crate) enum Request {
     KineticStep(i32),
     /// Adds to the selected kinetic coefficient.
     KineticBy(f64),
+    /// Something that is not for networks to do, and why.
+    NotForNetworks(&'static str),
 }
 
 /// What an inlet asks for when `value` arrives; `None` for values that ask for nothing.
@@ -88,6 +90,10 @@ fn view(azimuth_by_rad: f64, elevation_by_rad: f64) -> Request {
 fn puppet(command: PuppetCommand) -> Request {
     Request::Command(Command::Puppet(command))
 }
+
+/// Said when a network tries.
+const RESET_IS_FOR_PEOPLE: &str =
+    "the network cannot reset the puppet: a stop or fault is left by a person, with Reset in the studio";
 
 /// Two components, or three of which the third is not needed.
 const PLANE_OR_SPACE: Kinds = Kinds::of(&[Kind::Vector2, Kind::Vector3]);
@@ -229,13 +235,25 @@ pub const PARAMETERS: &[Parameter] = &[
             inlet(Kinds::ANY, "any message stops at once and latches", |_| {
                 Some(puppet(PuppetCommand::Stop))
             }),
-            inlet(Kinds::ANY, "any message leaves the faulted state", |_| {
-                Some(puppet(PuppetCommand::Reset))
-            }),
+            inlet(
+                Kinds::ANY,
+                "does nothing but say so: a network may stop a puppet, only people leave a stop or fault",
+                |_| Some(Request::NotForNetworks(RESET_IS_FOR_PEOPLE)),
+            ),
             inlet(
                 Kinds::ANY,
                 "any message lets the puppet follow the figure live",
                 |_| Some(puppet(PuppetCommand::Follow)),
+            ),
+            inlet(
+                Kinds::ANY,
+                "any message is a heartbeat, for puppets that are played only while one comes",
+                |_| Some(puppet(PuppetCommand::Heartbeat)),
+            ),
+            inlet(
+                Kinds::NUMBER,
+                "1 or more takes goals ahead of time by as much as each joint lags, less does not",
+                |v| Some(puppet(PuppetCommand::CompensateLag(real(v)? >= 1.0))),
             ),
         ],
     },
@@ -311,6 +329,24 @@ mod tests {
             ("TIME", 1, Value::Real(f64::NAN), None),
             ("KEYS", 1, Value::Boolean(true), Some(Request::StoreKey)),
             ("KEYS", 3, Value::Boolean(true), None),
+            (
+                "PUPPET",
+                5,
+                Value::Boolean(true),
+                Some(puppet(PuppetCommand::Stop)),
+            ),
+            (
+                "PUPPET",
+                6,
+                Value::Boolean(true),
+                Some(Request::NotForNetworks(RESET_IS_FOR_PEOPLE)),
+            ),
+            (
+                "PUPPET",
+                9,
+                Value::Integer(1),
+                Some(puppet(PuppetCommand::CompensateLag(true))),
+            ),
             ("NOSUCH", 1, Value::Boolean(true), None),
         ];
         for (name, port, value, want) in rows {

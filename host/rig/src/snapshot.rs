@@ -2,6 +2,7 @@
 //!
 //! Windows, films, scenarios and tests read snapshots and nothing else.
 
+use player::Tracking;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -327,6 +328,10 @@ pub struct PuppetView {
     pub torque: bool,
     /// Whether this step sent goals on every bus.
     pub goals_sent: bool,
+    /// Whether servos that had torque can no longer be asked, or have not answered that it is off.
+    pub torque_unknown: bool,
+    /// Whether goals are taken ahead of time by as much as each joint lags.
+    pub compensates_lag: bool,
 }
 
 /// What the player is doing.
@@ -366,6 +371,10 @@ pub struct JointView {
     pub present: bool,
     /// A hardware error it reports, in words.
     pub error: Option<String>,
+    /// How long after its goals the joint is where they were, seconds; none until it has moved enough.
+    pub lag_secs: Option<f64>,
+    /// How well it follows.
+    pub tracking: Tracking,
 }
 
 /// An input device.

@@ -267,6 +267,8 @@ fn perform(words: &mut Words<'_>) -> Parsed<Doing> {
         ("release", PuppetCommand::Release),
         ("stop", PuppetCommand::Stop),
         ("reset", PuppetCommand::Reset),
+        ("heartbeat", PuppetCommand::Heartbeat),
+        ("compensate-lag", PuppetCommand::CompensateLag(true)),
     ];
     let names = orders.each_ref().map(|(name, _)| *name);
     let place = words.one_of(&names)?;

@@ -86,6 +86,8 @@ pub(crate) struct Seat {
     bones: Option<Bones>,
     body: Option<Body>,
     follower: Option<Follower>,
+    /// Stop was pressed before there was a player.
+    stopped: bool,
     baked: Option<(Arc<Clip>, Arc<JointClip>)>,
     look_at: Instant,
     remarks: Vec<(NoteLevel, String)>,
@@ -131,6 +133,7 @@ impl Seat {
             bones,
             body: None,
             follower: None,
+            stopped: false,
             baked: None,
             look_at: Instant::ZERO,
             remarks: Vec::new(),
@@ -154,8 +157,19 @@ impl Seat {
         clip: Option<&Arc<Clip>>,
         timeline: &TransportView,
     ) -> Result<(), String> {
-        if *order != PuppetCommand::Follow {
+        if !matches!(
+            order,
+            PuppetCommand::Follow | PuppetCommand::Heartbeat | PuppetCommand::CompensateLag(_)
+        ) {
             self.follower = None;
+        }
+        if let Runner::Waiting = self.runner {
+            // A stop is kept for the player that is to come; nothing can move before.
+            match order {
+                PuppetCommand::Stop => self.stopped = true,
+                PuppetCommand::Reset => self.stopped = false,
+                _ => {}
+            }
         }
         let order = match order {
             PuppetCommand::Arm => Order::Arm,
@@ -169,6 +183,8 @@ impl Seat {
             PuppetCommand::Release => Order::Release,
             PuppetCommand::Stop => Order::Stop,
             PuppetCommand::Reset => Order::Reset,
+            PuppetCommand::Heartbeat => Order::Heartbeat,
+            PuppetCommand::CompensateLag(on) => Order::CompensateLag(*on),
         };
         self.runner
             .order(order)
@@ -230,8 +246,20 @@ impl Seat {
     pub(crate) fn advance(&mut self, now: Instant, ports: &mut dyn Ports) -> Vec<(NoteLevel, String)> {
         if matches!(self.runner, Runner::Waiting) && now >= self.look_at {
             self.look_at = now.after(LOOK_AGAIN);
-            match runner::open(&self.puppet, &self.lines, ports, &self.spec.config) {
-                Ok(player) => self.runner = Runner::start(player, self.spec.pace, &self.clock),
+            match runner::open(
+                &self.puppet,
+                &self.lines,
+                ports,
+                &self.spec.config,
+                self.spec.pace,
+            ) {
+                Ok(player) => {
+                    self.runner = Runner::start(player, self.spec.pace, &self.clock);
+                    if std::mem::take(&mut self.stopped) {
+                        // A player that has just begun has room for it.
+                        let _ = self.runner.order(Order::Stop);
+                    }
+                }
                 Err(why) => self
                     .remarks
                     .push((NoteLevel::Warning, format!("puppet {}: {why}", self.profile.name))),

@@ -1,6 +1,7 @@
 //! Who ticks the player: the rig's own step, or a thread that nothing else can hold up.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -16,6 +17,8 @@ use crate::snapshot::NoteLevel;
 
 /// Orders that may wait for the player; a person gives a few a second, a live pose a hundred.
 const ORDERS_MAX: usize = 64;
+/// A rig that has not stepped for so long is not in charge any more. Longer than baking a long clip takes.
+const RIG_SILENT_MAX: Duration = Duration::from_secs(3);
 /// Longest wait for joints to stand and torque to go off when the rig closes.
 const CLOSE_MAX: Duration = Duration::from_secs(5);
 
@@ -45,6 +48,8 @@ pub(super) struct Inline {
 
 pub(super) struct Threaded {
     messages: Sender<Message>,
+    /// Set for a stop, past all that waits.
+    stop: Arc<AtomicBool>,
     seen: Arc<Mutex<Seen>>,
     thread: Option<JoinHandle<()>>,
     told: Told,
@@ -81,6 +86,7 @@ pub(super) fn open(
     lines: &[Line],
     ports: &mut dyn Ports,
     config: &PlayerConfig,
+    pace: Pace,
 ) -> Result<Player, String> {
     let buses = lines
         .iter()
@@ -93,7 +99,12 @@ pub(super) fn open(
                 .map_err(|error| error.to_string())
         })
         .collect::<Result<Vec<_>, _>>()?;
-    Player::new(puppet.clone(), buses, config.clone()).map_err(|error| error.to_string())
+    let mut config = config.clone();
+    if pace == Pace::OwnThread {
+        // Whoever ticks the player in its own step cannot be silent while it ticks.
+        config.operator_max.get_or_insert(RIG_SILENT_MAX);
+    }
+    Player::new(puppet.clone(), buses, config).map_err(|error| error.to_string())
 }
 
 impl Runner {
@@ -111,11 +122,16 @@ impl Runner {
     /// Hands an order over; fails when nobody is there to take it.
     pub(super) fn order(&mut self, order: Order) -> Result<(), ()> {
         match self {
-            Self::Inline(inline) if inline.orders.len() < ORDERS_MAX => {
+            Self::Inline(inline) if inline.orders.len() < ORDERS_MAX || matches!(order, Order::Stop) => {
                 inline.orders.push(order);
                 Ok(())
             }
             Self::Waiting | Self::Inline(_) => Err(()),
+            // However many orders wait: a stop goes past them.
+            Self::Threaded(threaded) if matches!(order, Order::Stop) => {
+                threaded.stop.store(true, Ordering::Release);
+                Ok(())
+            }
             Self::Threaded(threaded) => threaded.messages.try_send(Message::Order(order)).map_err(|_| ()),
         }
     }
@@ -174,15 +190,16 @@ impl Runner {
         match self {
             Self::Waiting => true,
             Self::Inline(mut inline) => {
-                let mut off = false;
+                let (mut off, mut known) = (false, false);
                 let began = clock.now();
                 let mut orders = vec![Order::Stop];
                 while !off && clock.now().since(began) < CLOSE_MAX {
                     let report = inline.player.tick(clock.now(), &mut orders.drain(..));
                     off = !report.torque;
+                    known = !report.torque_unknown;
                     clock.sleep_until(clock.now().after(inline.player.config().period));
                 }
-                off
+                off && known
             }
             Self::Threaded(mut threaded) => {
                 // The thread stops the player before it ends, whatever made it end.
@@ -192,12 +209,8 @@ impl Runner {
                 if let Some(thread) = threaded.thread.take() {
                     let _ = thread.join();
                 }
-                !threaded
-                    .seen
-                    .lock()
-                    .unwrap_or_else(PoisonError::into_inner)
-                    .report
-                    .torque
+                let seen = threaded.seen.lock().unwrap_or_else(PoisonError::into_inner);
+                !seen.report.torque && !seen.report.torque_unknown
             }
         }
     }
@@ -234,13 +247,16 @@ impl Threaded {
         let (messages, inbox) = bounded(ORDERS_MAX);
         let seen = Arc::new(Mutex::new(Seen::default()));
         let shown = Arc::clone(&seen);
+        let stop = Arc::new(AtomicBool::new(false));
+        let stop_there = Arc::clone(&stop);
         let thread = std::thread::Builder::new()
             .name("puppet".into())
-            .spawn(move || live(player, &*clock, &inbox, &shown))
+            .spawn(move || live(player, &*clock, &inbox, &stop_there, &shown))
             .map_err(|error| tracing::error!("the puppet's thread did not start: {error}"))
             .ok();
         Self {
             messages,
+            stop,
             seen,
             thread,
             told: Told::default(),
@@ -255,6 +271,8 @@ impl Threaded {
         ports: &mut dyn Ports,
         remarks: &mut Vec<(NoteLevel, String)>,
     ) {
+        // Each step is a sign of life; a queue that is full of orders is one, too.
+        let _ = self.messages.try_send(Message::Order(Order::Alive));
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         self.told.about(&seen.report, remarks);
         if seen.refused != self.told.refused {
@@ -283,10 +301,17 @@ impl Threaded {
 }
 
 /// The thread: runs the player until the end is asked for.
-fn live(mut player: Player, clock: &dyn Clock, inbox: &Receiver<Message>, seen: &Mutex<Seen>) {
+fn live(
+    mut player: Player,
+    clock: &dyn Clock,
+    inbox: &Receiver<Message>,
+    stop: &AtomicBool,
+    seen: &Mutex<Seen>,
+) {
     let period = player.config().period;
     let mut post = Post {
         inbox,
+        stop,
         seen,
         returned: None,
         refused: false,
@@ -300,6 +325,7 @@ fn live(mut player: Player, clock: &dyn Clock, inbox: &Receiver<Message>, seen: 
 /// The rig as the player's thread knows it: an inbox, and a place to show reports.
 struct Post<'a> {
     inbox: &'a Receiver<Message>,
+    stop: &'a AtomicBool,
     seen: &'a Mutex<Seen>,
     returned: Option<(String, Box<dyn Transport>)>,
     /// A refusal that nobody could be shown yet.
@@ -309,6 +335,9 @@ struct Post<'a> {
 
 impl Operator for Post<'_> {
     fn order(&mut self) -> Option<Order> {
+        if self.stop.swap(false, Ordering::Acquire) {
+            return Some(Order::Stop);
+        }
         match self.inbox.try_recv() {
             Ok(Message::Order(order)) => Some(order),
             // Given to the player before its next tick; what else waits comes with that one.

@@ -34,6 +34,8 @@ pub(super) fn of(profile: &PuppetProfile, report: &Report, now: Instant) -> Pupp
         late_cycles: report.late_ticks,
         bones: Vec::new(),
         torque: report.torque,
+        torque_unknown: report.torque_unknown,
+        compensates_lag: report.compensates_lag,
         goals_sent: report.goals_sent,
     }
 }
@@ -80,6 +82,8 @@ fn seen(joint: &PuppetJoint, report: &JointReport, now: Instant) -> JointView {
         temperature_c: report.temperature_c,
         voltage_v: report.voltage_v,
         present: matches!(report.presence, Some(Presence::Present)),
+        lag_secs: report.lag_secs,
+        tracking: report.tracking,
         error: (report.error_bits != 0).then(|| error_names(report.error_bits)),
     }
 }

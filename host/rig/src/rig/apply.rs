@@ -51,6 +51,7 @@ impl Rig {
     pub(super) fn apply_request(&mut self, request: Request) {
         match request {
             Request::Command(command) => self.apply(&command),
+            Request::NotForNetworks(why) => self.note(NoteLevel::Warning, why),
             Request::StoreKey => {
                 let secs = self.timeline.store_secs();
                 self.apply(&Command::Edit(EditCommand::StoreKey { secs }));
