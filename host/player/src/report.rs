@@ -98,6 +98,8 @@ pub struct JointReport {
 
 /// One tick.
 #[derive(Debug, Clone, Default)]
+// Facts that have nothing to do with each other, each with its own sentence.
+#[allow(clippy::struct_excessive_bools)]
 pub struct Report {
     /// When.
     pub at: Instant,

@@ -305,6 +305,8 @@ pub struct DeskKeyView {
 
 /// The servo puppet.
 #[derive(Clone, Debug, Default, PartialEq)]
+// Facts that have nothing to do with each other, each with its own sentence.
+#[allow(clippy::struct_excessive_bools)]
 pub struct PuppetView {
     /// The profile's name.
     pub name: String,
