@@ -237,6 +237,7 @@ fn joints() -> Vec<JointView> {
             voltage_v: Some(11.9),
             present: true,
             error: None,
+            ..JointView::default()
         }
     };
     JOINTS.iter().enumerate().map(joint).collect()
