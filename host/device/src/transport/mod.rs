@@ -1,5 +1,6 @@
 //! Moving bytes. A transport knows an address and whether the far end is still there, and no format.
 
+pub mod adapter;
 pub mod address;
 mod descriptor;
 mod error;
