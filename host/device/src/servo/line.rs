@@ -33,6 +33,8 @@ pub(super) struct LineCounters {
     pub(super) timeouts: u64,
     /// Damaged packets.
     pub(super) rejected: u64,
+    /// Bytes that belonged to no packet.
+    pub(super) skipped_bytes: u64,
 }
 
 /// Where the current request stands.
@@ -108,6 +110,7 @@ impl Line {
     pub(super) fn counters(&self) -> LineCounters {
         LineCounters {
             rejected: self.decoder.counters().rejected,
+            skipped_bytes: self.decoder.counters().skipped_bytes,
             ..self.counters
         }
     }

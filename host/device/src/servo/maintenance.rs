@@ -106,6 +106,19 @@ pub struct Heard {
     pub garbled: bool,
 }
 
+/// What was heard beside answers since the line was opened.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Overheard {
+    /// Own packets that came back.
+    pub echoes: u64,
+    /// Packets that were damaged.
+    pub damaged: u64,
+    /// Bytes that belonged to no packet.
+    pub stray_bytes: u64,
+    /// Answers that did not come in time.
+    pub timeouts: u64,
+}
+
 /// A bus taken apart. Asking changes nothing; the first write switches torque off on the whole line.
 pub struct Maintenance {
     line: Line,
@@ -167,6 +180,17 @@ impl Maintenance {
         self.line.send(clock.now(), [], 0)?;
         self.released = true;
         Ok(())
+    }
+
+    /// What was heard beside answers so far.
+    pub fn heard(&self) -> Overheard {
+        let counters = self.line.counters();
+        Overheard {
+            echoes: counters.echoes,
+            damaged: counters.rejected,
+            stray_bytes: counters.skipped_bytes,
+            timeouts: counters.timeouts,
+        }
     }
 
     /// Asks one servo who it is.
