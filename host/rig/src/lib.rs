@@ -8,6 +8,7 @@
 
 pub mod command;
 mod desk;
+pub mod doctor;
 pub mod document;
 pub mod history;
 mod inputs;
@@ -28,6 +29,7 @@ mod stage;
 mod system;
 mod timeline;
 mod view;
+mod ward;
 mod wiring;
 
 pub use command::{

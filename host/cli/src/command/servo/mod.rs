@@ -1,5 +1,6 @@
 //! `dialrig servo`: looking after servos. Nothing here can move one.
 
+mod doctor;
 mod monitor;
 mod ping;
 mod read;
@@ -39,6 +40,7 @@ enum Command {
     Read(read::Args),
     Monitor(monitor::Args),
     Release(release::Args),
+    Doctor(doctor::Args),
 }
 
 /// Where the line is.
@@ -103,5 +105,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Command::Read(args) => read::run(args, console),
         Command::Monitor(args) => monitor::run(args, console),
         Command::Release(args) => release::run(args, console),
+        Command::Doctor(args) => doctor::run(args, console),
     }
 }
