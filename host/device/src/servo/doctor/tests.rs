@@ -4,6 +4,7 @@
 use super::cost::Cycle;
 use super::*;
 use device_profiles::{Profiles, Role};
+use std::fmt::Write as _;
 
 /// So many XL430 that answer, all alike.
 fn seen(count: u8, baud: u32, delay_counts: i64, firmware: u8) -> Seen {
@@ -124,8 +125,9 @@ fn the_page_lists_every_kind() {
     );
     for kind in Kind::all() {
         let fixable = if kind.is_fixable() { "yes" } else { "" };
-        table += &format!(
-            "| `{}` | {} | {} | {} | {fixable} |\n",
+        let _ = writeln!(
+            table,
+            "| `{}` | {} | {} | {} | {fixable} |",
             kind.name(),
             kind.meaning(),
             kind.costs(),
