@@ -4,6 +4,7 @@ use firmware_sim::Fault;
 use firmware_sim::hands::Turn;
 use rig::{Command, NetworkEdit, PuppetCommand, TransportCommand};
 
+use super::horn::HornHand;
 use super::words::{Flaw, Parsed, Words};
 use crate::hands::{Movement, Tool};
 use crate::stand::HandError;
@@ -33,6 +34,7 @@ pub(super) const VERBS: &[&str] = &[
     "redo",
     "stall",
     "push",
+    "hand",
     "mark",
     "do",
 ];
@@ -58,6 +60,8 @@ pub(super) enum Doing {
     Stall { secs: f64 },
     /// A hand turns a joint.
     Push { joint: String, rad: f64 },
+    /// A hand stays on a joint.
+    Horn(HornHand),
     /// Where the servos are is remembered.
     Mark,
 }
@@ -112,9 +116,10 @@ impl Doing {
                 words.expect("by")?;
                 Self::Push {
                     joint,
-                    rad: words.any_number("radians")?,
+                    rad: words.angle("an angle")?,
                 }
             }
+            "hand" => Self::Horn(HornHand::parse(words)?),
             "mark" => Self::Mark,
             _ => json(column, words)?,
         })
@@ -128,7 +133,7 @@ impl Doing {
             Self::Plug { device, .. } | Self::PowerCycle { device } => Some(device),
             Self::Fault { bus, .. } | Self::Mend { bus } => Some(bus),
             // Joints are found on the stand, or they are not there.
-            Self::Push { .. } | Self::Ask(_) | Self::Stall { .. } | Self::Mark => None,
+            Self::Push { .. } | Self::Horn(_) | Self::Ask(_) | Self::Stall { .. } | Self::Mark => None,
         }
     }
 
@@ -161,6 +166,7 @@ impl Doing {
             Self::Mend { bus } => world.stand().mend(bus)?,
             Self::Stall { secs } => world.stall(*secs),
             Self::Push { joint, rad } => world.stand().push(joint, *rad)?,
+            Self::Horn(hand) => hand.act(world.stand())?,
             // The runner keeps the mark.
             Self::Mark => {}
         }

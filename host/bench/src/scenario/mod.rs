@@ -7,6 +7,7 @@
 
 mod check;
 mod doing;
+mod horn;
 mod junit;
 mod parse;
 mod run;
@@ -17,6 +18,7 @@ use std::path::PathBuf;
 
 use check::Check;
 use doing::Doing;
+use firmware_sim::servo_bus::PlantKind;
 
 pub use junit::junit;
 pub use run::{Failure, Outcome, RunOptions, run, run_on};
@@ -54,6 +56,10 @@ struct Setting {
     scripts: Vec<PathBuf>,
     start_rad: BTreeMap<String, f64>,
     sag_rad_per_s: Option<f64>,
+    /// What shafts are moved by.
+    plant: PlantKind,
+    /// Where joints meet their ends.
+    stops_rad: BTreeMap<String, [f64; 2]>,
     seed: u64,
 }
 

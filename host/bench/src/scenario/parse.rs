@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use firmware_sim::servo_bus::PlantKind;
+
 use super::check::{Check, SUBJECTS};
 use super::doing::{Doing, VERBS};
 use super::words::{Parsed, Words};
@@ -111,7 +113,7 @@ impl Setting {
         let path = |words: &mut Words<'_>| -> Parsed<PathBuf> { Ok(folder.join(words.text("a path")?)) };
         loop {
             match words.one_of(&[
-                "show", "puppet", "knobs", "tablet", "script", "pose", "sag", "seed",
+                "show", "puppet", "knobs", "tablet", "script", "pose", "sag", "shafts", "stops", "seed",
             ])? {
                 0 => self.show = Some(path(words)?),
                 1 => self.puppet = Some(words.text("a puppet profile")?),
@@ -121,9 +123,23 @@ impl Setting {
                 5 => {
                     let joint = words.text("a joint")?;
                     words.expect("at")?;
-                    self.start_rad.insert(joint, words.any_number("radians")?);
+                    self.start_rad.insert(joint, words.angle("an angle")?);
                 }
                 6 => self.sag_rad_per_s = Some(words.number("radians a second", 0.0..=100.0)?),
+                7 => self.plant = [PlantKind::Ideal, PlantKind::Real][words.one_of(&["ideal", "real"])?],
+                8 => {
+                    words.expect("of")?;
+                    let joint = words.text("a joint")?;
+                    words.expect("at")?;
+                    let low_rad = words.angle("the lower end")?;
+                    words.expect("and")?;
+                    let wrong = words.wrong("an angle above the lower end");
+                    let high_rad = words.angle("the upper end")?;
+                    if high_rad <= low_rad {
+                        return Err(wrong);
+                    }
+                    self.stops_rad.insert(joint, [low_rad, high_rad]);
+                }
                 _ => self.seed = words.whole("a seed", 0..=u64::from(u32::MAX))?,
             }
             if !words.take(",") {

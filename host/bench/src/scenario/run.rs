@@ -131,6 +131,8 @@ fn begin(scenario: &Scenario, options: &RunOptions, seed: u64, dut: Option<&Dut>
     };
     equipment.plan.start_rad.clone_from(&setting.start_rad);
     equipment.plan.sag_rad_per_s = setting.sag_rad_per_s;
+    equipment.plan.plant = setting.plant;
+    equipment.plan.stops_rad.clone_from(&setting.stops_rad);
     equipment.plan.seed = seed;
     let profiles = Arc::clone(&options.profiles);
     World::new(WorldOptions {

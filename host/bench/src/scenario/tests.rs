@@ -73,6 +73,32 @@ fn errors_have_a_place_and_say_what_was_expected() {
             "expected use, at, by, within, always or never, found `sometimes`",
         ),
         ("by 1 joint a is 1 within -2", 1, 26, "expected a tolerance"),
+        (
+            "at 1 hand slaps left_elbow",
+            1,
+            11,
+            "expected turns, holds, pulls or lets",
+        ),
+        ("at 1 hand turns left_elbow to up", 1, 31, "expected an angle"),
+        ("at 1 fault servo 3 stuk on upper", 1, 20, "did you mean `stuck`?"),
+        (
+            "use stops of left_elbow at 1 and 0.5",
+            1,
+            34,
+            "an angle above the lower end",
+        ),
+        (
+            "by 1 register homing of left_elbow is 3",
+            1,
+            15,
+            "a register's role such as homing-offset",
+        ),
+        (
+            "by 1 life of left_elbow jumps at most 1",
+            1,
+            25,
+            "expected reboots, shutdowns",
+        ),
     ];
     for (text, line, column, words) in rows {
         let errors = parse(text).expect_err(text);
@@ -148,6 +174,48 @@ fn junit_is_escaped_and_names_the_seed() {
     assert!(
         xml.contains("name=\"seed\" value=\"0\"") && xml.contains("test.scn:1:1: at 0.02 s"),
         "{xml}"
+    );
+}
+
+#[test]
+fn hands_turn_horns_and_the_truth_is_judged() {
+    for shafts in ["ideal", "real"] {
+        let text = format!(
+            "use puppet marionette, shafts {shafts}, pose left_elbow at 10 deg, stops of left_elbow at -20 deg and 45 deg
+at 0.1   torque of left_elbow is off
+at 0.1   shaft left_elbow position is 10 deg within 0.1 deg
+at 0.2   hand turns left_elbow to 30 deg over 1s
+at 0.7   shaft left_elbow speed is 0.6 within 0.2
+at 2     shaft left_elbow position is 30 deg within 2 deg
+at 2     joint left_elbow is 30 deg within 2 deg
+at 2     hand turns left_elbow by 90 deg over 500ms
+at 4     joint left_elbow really is 45 deg within 0.01 deg
+at 4     hand lets go of left_elbow
+at 5     joint left_elbow really is 45 deg within 0.5 deg
+at 5     hand pulls left_elbow with -0.3 Nm
+at 7     shaft left_elbow position is -20 deg within 0.01 deg
+at 7     hand holds left_elbow
+at 7     life of left_elbow torque-ons at most 0
+at 7     register torque-enable of left_elbow is 0
+at 7     shaft left_elbow temperature is 25 within 1
+at 7     shaft left_elbow effort is 0 within 0.001
+"
+        );
+        let outcome = outcome(&text);
+        assert_eq!(outcome.failures, [], "{shafts}");
+    }
+}
+
+#[test]
+fn faults_that_would_strike_nothing_are_refused() {
+    let outcome = outcome("use puppet marionette\nat 0.1 fault servo 200 stuck on upper\n");
+    assert_eq!(outcome.failures.len(), 1);
+    assert!(
+        outcome.failures[0]
+            .message
+            .contains("there is no servo 200; there are: "),
+        "{:?}",
+        outcome.failures
     );
 }
 

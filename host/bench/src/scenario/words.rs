@@ -180,9 +180,35 @@ impl<'a> Words<'a> {
         self.number(what, f64::MIN..=f64::MAX)
     }
 
-    /// A time or duration in seconds, up to a day.
+    /// A time or duration up to a day: seconds, or with its unit behind it as in `1.5s` and `300ms`.
     pub(super) fn secs(&mut self, what: &str) -> Parsed<f64> {
-        self.number(what, 0.0..=86_400.0)
+        let with_unit = self.peek().and_then(|word| {
+            let millis = word.strip_suffix("ms").map(|number| (number, 1e-3));
+            let (number, unit) = millis.or_else(|| word.strip_suffix('s').map(|number| (number, 1.0)))?;
+            number.parse::<f64>().ok().map(|value| value * unit)
+        });
+        match with_unit.filter(|secs| (0.0..=86_400.0).contains(secs)) {
+            Some(secs) => {
+                self.next += 1;
+                Ok(secs)
+            }
+            None => self.number(what, 0.0..=86_400.0),
+        }
+    }
+
+    /// An angle in radians, also written `30 deg`.
+    pub(super) fn angle(&mut self, what: &str) -> Parsed<f64> {
+        let value = self.any_number(what)?;
+        Ok(self.in_unit(value))
+    }
+
+    /// `value` in radians, if `deg` follows.
+    pub(super) fn in_unit(&mut self, value: f64) -> f64 {
+        if self.take("deg") {
+            return value.to_radians();
+        }
+        self.take("rad");
+        value
     }
 
     /// A whole number in a range.

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use device::clock::Clock;
 use device_profiles::{KnobsProfile, ProfileError, Profiles, PuppetProfile, TabletProfile};
 use firmware_sim::dial_box::Options;
-use firmware_sim::servo_bus::{AddError, BusOptions, Sag, Unit};
+use firmware_sim::servo_bus::{AddError, BusOptions, PlantKind, Sag, Unit};
 use firmware_sim::wacom_iv::Model;
 use firmware_sim::{ServoBus, SgiDialBox, WacomIv};
 
@@ -35,7 +35,7 @@ pub enum StandError {
         name: String,
     },
     /// A pose names a joint that is not there.
-    #[error("the start pose names joint \"{joint}\", which {puppet} does not have; it has: {known}")]
+    #[error("the setting names joint \"{joint}\", which {puppet} does not have; it has: {known}")]
     NoSuchJoint {
         /// The joint named.
         joint: String,
@@ -53,6 +53,10 @@ pub struct PuppetPlan {
     pub start_rad: BTreeMap<String, f64>,
     /// How fast joints without torque sink back to where they began; none: they stay where they are let go.
     pub sag_rad_per_s: Option<f64>,
+    /// What shafts are moved by.
+    pub plant: PlantKind,
+    /// Where joints meet their ends, radians; those not named turn freely.
+    pub stops_rad: BTreeMap<String, [f64; 2]>,
     /// Decides what random faults hit.
     pub seed: u64,
     /// Buses that are real: their servos are not simulated.
@@ -96,7 +100,8 @@ impl StandBuilder {
         profiles: &Profiles,
         plan: &PuppetPlan,
     ) -> Result<Self, StandError> {
-        if let Some(joint) = plan.start_rad.keys().find(|joint| puppet.joint(joint).is_none()) {
+        let named = plan.start_rad.keys().chain(plan.stops_rad.keys());
+        if let Some(joint) = named.into_iter().find(|joint| puppet.joint(joint).is_none()) {
             return Err(StandError::NoSuchJoint {
                 joint: joint.clone(),
                 puppet: puppet.name.clone(),
@@ -122,8 +127,14 @@ impl StandBuilder {
                 let servo = profiles.servo(&joint.model)?;
                 let mount = Mount::new(joint, servo);
                 let start_rad = mount.shaft_rad(plan.start_rad.get(&joint.name).copied().unwrap_or(0.0));
+                let stops_rad = plan.stops_rad.get(&joint.name).map(|stops| {
+                    let [a, b] = stops.map(|rad| mount.shaft_rad(rad));
+                    [a.min(b), a.max(b)]
+                });
                 let unit = Unit {
                     start_rad,
+                    plant: plan.plant,
+                    stops_rad,
                     ..Unit::new(joint.id)
                 };
                 let added = bus.add(servo, unit);

@@ -5,6 +5,7 @@
 //! bring in faults, and see where the shafts really are.
 
 mod build;
+mod horn;
 mod ports;
 mod seat;
 mod surface;
@@ -65,6 +66,16 @@ pub enum HandError {
         joint: String,
         /// All joints.
         known: String,
+    },
+    /// The fault would strike nothing.
+    #[error("fault \"{text}\" on {bus}: {why}")]
+    Misfit {
+        /// As given.
+        text: String,
+        /// The bus.
+        bus: String,
+        /// What is missing.
+        why: String,
     },
     /// The text names no fault.
     #[error("fault \"{text}\": {source}")]
@@ -198,13 +209,27 @@ impl Stand {
             .filter(|name| self.mounts.iter().any(|mount| mount.bus == **name))
     }
 
-    /// Brings a fault onto a bus, named as in `docs/cli.md`; its times count from now.
+    /// Brings a fault onto a bus, named as in `docs/simulator.md`; its times count from now.
     pub fn fault(&self, bus: &str, text: &str) -> Result<(), HandError> {
         let fault = Fault::parse(text).map_err(|source| HandError::Fault {
             text: text.to_owned(),
             source,
         })?;
-        self.with_bus(bus, |bus, now_us| bus.inject(now_us, &fault))
+        let misfit = self.with_bus(bus, |bus, now_us| match bus.misfit(&fault) {
+            None => {
+                bus.inject(now_us, &fault);
+                None
+            }
+            misfit => misfit,
+        })?;
+        match misfit {
+            None => Ok(()),
+            Some(why) => Err(HandError::Misfit {
+                text: text.to_owned(),
+                bus: bus.to_owned(),
+                why,
+            }),
+        }
     }
 
     /// Ends every fault of a bus.

@@ -1,7 +1,7 @@
 //! What a test may know about a simulated joint that no byte on the wire tells.
 
 use device_profiles::{PuppetJoint, ServoProfile};
-use firmware_sim::servo_bus::Servo;
+use firmware_sim::servo_bus::{Counters, Servo};
 
 /// How a joint's angle and its servo's shaft belong together, and what the profile allows.
 #[derive(Clone, Debug)]
@@ -35,6 +35,11 @@ impl Mount {
         self.shaft_zero_rad + self.sign * joint_rad
     }
 
+    /// 1 where the joint's angle rises with the shaft's, else −1.
+    pub(crate) fn sense(&self) -> f64 {
+        self.sign
+    }
+
     pub(crate) fn joint_rad(&self, shaft_rad: f64) -> f64 {
         self.sign * (shaft_rad - self.shaft_zero_rad)
     }
@@ -49,8 +54,9 @@ impl Mount {
             velocity_rad_per_s: 0.0,
             torque,
             connected,
-            watchdog_trips: 0,
-            torque_ons: 0,
+            effort: 0.0,
+            temperature_c: 0.0,
+            life: Counters::default(),
             range_rad: self.range_rad,
             speed_max_rad_per_s: self.speed_max_rad_per_s,
             accel_max_rad_per_s2: self.accel_max_rad_per_s2,
@@ -66,8 +72,9 @@ impl Mount {
             velocity_rad_per_s: self.sign * servo.true_velocity_rad_per_s(),
             torque: servo.torque_is_on(),
             connected: servo.is_connected(),
-            watchdog_trips: servo.counters().watchdog_trips,
-            torque_ons: servo.counters().torque_ons,
+            effort: self.sign * servo.effort(),
+            temperature_c: servo.temperature_c(),
+            life: *servo.counters(),
             range_rad: self.range_rad,
             speed_max_rad_per_s: self.speed_max_rad_per_s,
             accel_max_rad_per_s2: self.accel_max_rad_per_s2,
@@ -92,10 +99,12 @@ pub struct JointTruth {
     pub torque: bool,
     /// Whether the servo has power and a cable.
     pub connected: bool,
-    /// Times the servo stopped because nobody spoke to it.
-    pub watchdog_trips: u64,
-    /// Times torque came on.
-    pub torque_ons: u64,
+    /// What its motor does, −1 to 1 of what it can, in the sense of the joint's rising angle.
+    pub effort: f64,
+    /// What its motor's sensor would read, degrees Celsius.
+    pub temperature_c: f64,
+    /// What has happened to its servo.
+    pub life: Counters,
     /// What the profile allows.
     pub range_rad: [f64; 2],
     /// What the profile allows.

@@ -3,11 +3,12 @@
 use rig::{DeviceHealth, PuppetState, Snapshot};
 
 use super::servos::{servos, torque_is};
+use super::truth::{life, register, shaft};
 use super::{Aspect, Bound, COUNTERS, Check, Evidence, HEALTHS, Near, STATES, VIEW_PARTS};
 use crate::world::DIAL_BOX;
 
 impl Near {
-    fn judge(self, what: &str, value: Option<f64>, hil: bool) -> Result<(), String> {
+    pub(super) fn judge(self, what: &str, value: Option<f64>, hil: bool) -> Result<(), String> {
         let within = self.hil_within.filter(|_| hil).unwrap_or(self.within);
         match value {
             None => Err(format!("{what} is not known")),
@@ -18,7 +19,7 @@ impl Near {
 }
 
 impl Bound {
-    fn judge(self, what: &str, count: u64) -> Result<(), String> {
+    pub(super) fn judge(self, what: &str, count: u64) -> Result<(), String> {
         let fits = match self {
             Self::AtLeast(least) => count >= least,
             Self::AtMost(most) => count <= most,
@@ -98,6 +99,9 @@ impl Check {
                 fits(there == text, || format!("undo is \"{there}\""))
             }
             Self::Watchdogs { bus, bound } => watchdogs(evidence, bus, *bound),
+            Self::Shaft { joint, part, near } => shaft(evidence, joint, *part, *near),
+            Self::Register { joint, role, near } => register(evidence, joint, *role, *near),
+            Self::Life { joint, event, bound } => life(evidence, joint, *event, *bound),
         }
     }
 }
@@ -115,7 +119,7 @@ fn state_name(state: PuppetState) -> &'static str {
 
 fn watchdogs(evidence: &Evidence<'_>, bus: &str, bound: Bound) -> Result<(), String> {
     let on_bus = evidence.truths.iter().filter(|truth| truth.bus == bus);
-    let tripped = on_bus.filter(|truth| truth.watchdog_trips > 0).count();
+    let tripped = on_bus.filter(|truth| truth.life.watchdog_trips > 0).count();
     bound.judge(
         &format!("servos of {bus} stopped by their watchdogs"),
         tripped as u64,

@@ -4,7 +4,9 @@
 mod judge;
 mod parse;
 mod servos;
+mod truth;
 
+use device_profiles::Role;
 use rig::{DeviceHealth, PuppetState, Snapshot};
 
 use crate::stand::{JointTruth, Stand};
@@ -31,6 +33,9 @@ pub(in crate::scenario) const SUBJECTS: &[&str] = &[
     "counter",
     "undo",
     "watchdogs",
+    "shaft",
+    "register",
+    "life",
 ];
 
 /// A number and how near to it is near enough.
@@ -58,6 +63,15 @@ pub(in crate::scenario) enum Aspect {
     Goal,
     /// Where the simulated shaft is.
     Really,
+}
+
+/// What the simulated shaft really does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::scenario) enum ShaftPart {
+    Position,
+    Speed,
+    Effort,
+    Temperature,
 }
 
 /// Which limits of a servo.
@@ -141,6 +155,21 @@ pub(in crate::scenario) enum Check {
         bus: String,
         bound: Bound,
     },
+    Shaft {
+        joint: String,
+        part: ShaftPart,
+        near: Near,
+    },
+    Register {
+        joint: String,
+        role: Role,
+        near: Near,
+    },
+    Life {
+        joint: String,
+        event: usize,
+        bound: Bound,
+    },
 }
 
 /// What a judgement may look at.
@@ -170,4 +199,20 @@ const HEALTHS: [(&str, DeviceHealth); 3] = [
     ("lost", DeviceHealth::Lost),
 ];
 const VIEW_PARTS: [&str; 3] = ["azimuth", "elevation", "scale"];
+const SHAFT_PARTS: [(&str, ShaftPart); 4] = [
+    ("position", ShaftPart::Position),
+    ("speed", ShaftPart::Speed),
+    ("effort", ShaftPart::Effort),
+    ("temperature", ShaftPart::Temperature),
+];
+/// What happens in a servo's life.
+const EVENTS: [&str; 7] = [
+    "reboots",
+    "shutdowns",
+    "torque-ons",
+    "watchdog-trips",
+    "eeprom-changes",
+    "refused-writes",
+    "goal-writes",
+];
 const COUNTERS: [&str; 3] = ["stale", "interventions", "late"];

@@ -1,16 +1,20 @@
 //! From words to expectations.
 
-use super::{Aspect, Bound, COUNTERS, Check, Conduct, HEALTHS, Near, STATES, SUBJECTS, VIEW_PARTS};
+use super::{
+    Aspect, Bound, COUNTERS, Check, Conduct, EVENTS, HEALTHS, Near, SHAFT_PARTS, STATES, SUBJECTS, VIEW_PARTS,
+};
 use crate::scenario::words::{Parsed, Words};
 
 impl Near {
     fn parse(words: &mut Words<'_>) -> Parsed<Self> {
-        let wanted = words.any_number("a value")?;
+        let wanted = words.angle("a value")?;
         words.expect("within")?;
         let within = words.number("a tolerance", 0.0..=f64::MAX)?;
+        let within = words.in_unit(within);
         let hil_within = if words.take("hil") {
             words.expect("within")?;
-            Some(words.number("a tolerance", 0.0..=f64::MAX)?)
+            let within = words.number("a tolerance", 0.0..=f64::MAX)?;
+            Some(words.in_unit(within))
         } else {
             None
         };
@@ -127,6 +131,7 @@ impl Check {
                 })
             }
             "torque" => torque(words),
+            "shaft" | "register" | "life" => truth(subject, words),
             "servos" => conduct(words).map(|conduct| Self::Servos { joint: None, conduct }),
             _ => {
                 let joint = Some(words.text("a joint")?);
@@ -187,6 +192,41 @@ fn control(words: &mut Words<'_>, verb: &str) -> Parsed<(u8, String)> {
     };
     words.expect(verb)?;
     Ok((control as u8, words.quoted("a text")?))
+}
+
+/// What no byte on a wire tells: shafts, memories, lives.
+fn truth(subject: &str, words: &mut Words<'_>) -> Parsed<Check> {
+    if subject == "shaft" {
+        let joint = words.text("a joint")?;
+        let part = SHAFT_PARTS[words.one_of(&SHAFT_PARTS.map(|(name, _)| name))?].1;
+        words.expect("is")?;
+        let near = Near::parse(words)?;
+        return Ok(Check::Shaft { joint, part, near });
+    }
+    if subject == "life" {
+        words.expect("of")?;
+        let joint = words.text("a joint")?;
+        let event = words.one_of(&EVENTS)?;
+        let bound = Bound::parse(words)?;
+        return Ok(Check::Life { joint, event, bound });
+    }
+    let unknown = words.wrong("a register's role such as homing-offset");
+    let role = words.text("a register's role")?.parse().map_err(|_| unknown)?;
+    words.expect("of")?;
+    let joint = words.text("a joint")?;
+    words.expect("is")?;
+    let wanted = words.any_number("a value")?;
+    let within = if words.take("within") {
+        words.number("a tolerance", 0.0..=f64::MAX)?
+    } else {
+        0.0
+    };
+    let near = Near {
+        wanted,
+        within,
+        hil_within: None,
+    };
+    Ok(Check::Register { joint, role, near })
 }
 
 fn torque(words: &mut Words<'_>) -> Parsed<Check> {

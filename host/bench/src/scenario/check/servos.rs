@@ -30,7 +30,7 @@ pub(super) fn torque_is(evidence: &Evidence<'_>, joint: Option<&str>, on: bool) 
     Ok(())
 }
 
-fn chosen<'a>(
+pub(super) fn chosen<'a>(
     truths: &'a [JointTruth],
     joint: Option<&'a str>,
 ) -> Result<impl Iterator<Item = &'a JointTruth>, String> {
