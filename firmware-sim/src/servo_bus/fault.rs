@@ -8,6 +8,8 @@ mod text;
 mod words;
 
 use device_profiles::Role;
+#[cfg(test)]
+pub(super) use parse::words_of_faults;
 
 /// Something that goes wrong. Numbers of servos are their ids on the bus when the fault begins.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,6 +6,11 @@ use super::reg::Reg;
 use super::servo::Servo;
 use super::trajectory::{Plan, State};
 
+/// All of register Punch.
+const PUNCH_FULL: f64 = 1023.0;
+/// All of Feetech's startup force, 0.1 % a count.
+const STARTUP_FULL: f64 = 1000.0;
+
 impl Servo {
     /// Where the profile generator is at `at_ns`, and whether it is still under way.
     pub(super) fn trajectory(&self, at_ns: u64) -> (State, bool) {
@@ -41,49 +46,45 @@ impl Servo {
 
     /// The position loop's gains. X series: P/128, I/65536, D/16 and feed forward/4 on counts, of 885 ("Position PID
     /// Gain"); one-byte gains: P/8, D 4/1000 and I 1000/2048 (MX pages), of 500, as an oscilloscope showed for MX,
-    /// XL-320 and STS3215 alike (BAM: duty 0.158 to 0.166 for a radian and a P of 1). Sums and differences are
-    /// of milliseconds.
+    /// XL-320 and STS3215 alike (BAM: duty 0.158 to 0.166 for a radian and a P of 1). AX: all it has at as many counts
+    /// as the compliance slope says, and the punch at once ("CW/CCW Compliance Slope", "Punch"). Sums and
+    /// differences are of milliseconds.
     fn gains(&self) -> Gains {
         let gain = |reg: Reg| self.table.get(reg) as f64;
-        let wide = self.table.row(Reg::PositionPGain).is_some_and(|row| row.size > 1);
-        let full = self
-            .table
-            .row(Reg::TorqueLimit)
-            .and_then(|row| row.init)
-            .unwrap_or(0);
-        let allowed = match self.table.row(Reg::GoalTorque) {
-            Some(row) => gain(Reg::TorqueLimit).min(self.table.value(row).abs() as f64),
-            None => gain(Reg::TorqueLimit),
+        let share = |reg: Reg| {
+            let unit = self.table.row(reg).and_then(|row| row.unit_per_count);
+            unit.map_or(1.0, |unit| (gain(reg) * unit).abs().min(1.0))
         };
-        let duty_max = if full > 0 {
-            (allowed / full as f64).clamp(0.0, 1.0)
-        } else {
-            1.0
+        let common = Gains {
+            punch: gain(Reg::Punch) / PUNCH_FULL + gain(Reg::StartupForce) / STARTUP_FULL,
+            duty_max: share(Reg::TorqueLimit).min(share(Reg::GoalTorque)),
+            ..Gains::default()
         };
-        let slope = gain(Reg::ComplianceSlope);
-        if slope > 0.0 {
-            // Full effort at the slope's end ("Compliance Slope"), nothing in between remembered.
-            Gains {
-                p: 1.0 / slope,
-                duty_max,
-                ..Gains::default()
+        match self.table.row(Reg::PositionPGain).map(|row| row.size) {
+            None => {
+                let slope = if self.plan.goes_down() {
+                    Reg::ClockwiseSlope
+                } else {
+                    Reg::AnticlockwiseSlope
+                };
+                Gains {
+                    p: 1.0 / gain(slope).max(1.0),
+                    ..common
+                }
             }
-        } else if wide {
-            Gains {
+            Some(1) => Gains {
+                p: gain(Reg::PositionPGain) / 8.0 / 500.0,
+                i: gain(Reg::PositionIGain) * 1000.0 / 2048.0 / 500.0,
+                d: gain(Reg::PositionDGain) * 4.0 / 1000.0 / 500.0,
+                ..common
+            },
+            Some(_) => Gains {
                 p: gain(Reg::PositionPGain) / 128.0 / 885.0,
                 i: gain(Reg::PositionIGain) / 65_536.0 / 885.0 / STEP_SECS,
                 d: gain(Reg::PositionDGain) / 16.0 / 885.0 * STEP_SECS,
                 feed_forward: gain(Reg::FeedforwardFirst) / 4.0 / 885.0 * STEP_SECS,
-                duty_max,
-            }
-        } else {
-            Gains {
-                p: gain(Reg::PositionPGain) / 8.0 / 500.0,
-                i: gain(Reg::PositionIGain) * 1000.0 / 2048.0 / 500.0,
-                d: gain(Reg::PositionDGain) * 4.0 / 1000.0 / 500.0,
-                feed_forward: 0.0,
-                duty_max,
-            }
+                ..common
+            },
         }
     }
 

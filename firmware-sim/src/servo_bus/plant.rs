@@ -54,6 +54,8 @@ pub(super) struct Gains {
     pub(super) i: f64,
     pub(super) d: f64,
     pub(super) feed_forward: f64,
+    /// Duty that any error at all is worth.
+    pub(super) punch: f64,
     pub(super) duty_max: f64,
 }
 

@@ -77,6 +77,10 @@ known_registers! {
     VelocityTrajectory = Named("Velocity Trajectory"),
     PositionTrajectory = Named("Position Trajectory"),
     BackupReady = Named("Backup Ready"),
+    Punch = Named("Punch"),
+    StartupForce = Named("Minimum Startup Force"),
+    ClockwiseSlope = Named("CW Compliance Slope"),
+    AnticlockwiseSlope = Named("CCW Compliance Slope"),
     ClockwiseMargin = Named("CW Compliance Margin"),
     AnticlockwiseMargin = Named("CCW Compliance Margin"),
     ComplianceSlope = Named("CW Compliance Slope"),
@@ -86,7 +90,7 @@ known_registers! {
 
 /// A few of the registers above.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Regs(u64);
+pub(super) struct Regs(u128);
 
 impl Regs {
     pub(super) fn insert(&mut self, reg: Reg) {

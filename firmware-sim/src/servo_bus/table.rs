@@ -105,6 +105,13 @@ impl Table {
         }
     }
 
+    /// The same for the row that covers `address`.
+    pub(super) fn keep_at(&mut self, address: u16) {
+        if let Some(bytes) = self.row_covering(address).map(span) {
+            self.kept[bytes.clone()].copy_from_slice(&self.memory[bytes]);
+        }
+    }
+
     /// Puts `bytes` where a row's value, or a part of it, is. `keeps`: so that they outlive power.
     pub(super) fn put(&mut self, address: u16, bytes: &[u8], keeps: bool) {
         let at = usize::from(address)..usize::from(address) + bytes.len();

@@ -5,6 +5,7 @@ mod faults;
 mod feetech;
 mod instructions;
 mod motion;
+mod page;
 mod physics;
 mod protocol1;
 mod timing;

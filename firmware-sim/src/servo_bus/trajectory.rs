@@ -105,6 +105,11 @@ impl Plan {
         }
     }
 
+    /// Whether it leads to smaller counts.
+    pub(super) fn goes_down(&self) -> bool {
+        self.goal.is_some_and(|goal| goal < self.start)
+    }
+
     /// Where the path is after `secs`, and whether it still has phases to go.
     pub(super) fn at(&self, secs: f64) -> (State, bool) {
         let mut left = secs.max(0.0);

@@ -60,11 +60,15 @@ impl Servo {
             ServoFault::Carries { .. } => self.plant.load.carry(0.0, 0.0),
             ServoFault::Backlash(_) => self.plant.backlash_rad = 0.0,
             ServoFault::Jitter(_) => self.plant.jitter_counts = 0.0,
-            ServoFault::Id(_) => self.table.set(Reg::Id, before),
-            ServoFault::Firmware(_) => self.table.set(Reg::FirmwareVersion, before),
+            ServoFault::Id(_) => {
+                self.exchange(Reg::Id, before);
+            }
+            ServoFault::Firmware(_) => {
+                self.exchange(Reg::FirmwareVersion, before);
+            }
             ServoFault::Baud(_) => {
                 self.trouble.odd_baud = None;
-                self.table.set(Reg::BaudRate, before);
+                self.exchange(Reg::BaudRate, before);
             }
             ServoFault::Lock(_) => {
                 self.leave(Role::Lock, before);
@@ -87,6 +91,7 @@ impl Servo {
     fn exchange(&mut self, reg: Reg, value: i64) -> i64 {
         let before = self.table.get(reg);
         self.table.set(reg, value);
+        self.table.keep_register(reg);
         before
     }
 
@@ -94,7 +99,9 @@ impl Servo {
         let before = self.table.get(Reg::BaudRate);
         let code = self.facts.bauds.iter().find(|&&(_, known)| known == baud);
         match code.map(|&(code, _)| code) {
-            Some(code) => self.table.set(Reg::BaudRate, code),
+            Some(code) => {
+                self.exchange(Reg::BaudRate, code);
+            }
             None => self.trouble.odd_baud = Some(baud),
         }
         before
@@ -107,6 +114,7 @@ impl Servo {
         };
         let (before, address) = (self.table.value(row), row.address);
         self.table.set_at(address, value);
+        self.table.keep_at(address);
         before
     }
 }

@@ -25,6 +25,12 @@ const OF_A_SERVO: &[&str] = &[
 /// Words of the times.
 const TIMES: &[&str] = &["at", "for", "from", "every", "once"];
 
+/// Every word that begins a fault or says what is wrong with a servo.
+#[cfg(test)]
+pub(in crate::servo_bus) fn words_of_faults() -> impl Iterator<Item = &'static str> {
+    FIRST.iter().chain(OF_A_SERVO).chain(TIMES).copied()
+}
+
 impl Fault {
     /// Reads a fault such as `servo 3 stuck at 2s`, `cable cut after 4 at 5s`, `drop 1%`, `late 30ms once`,
     /// `brownout 1s`, `servo 2 silent from 1s to 3s`.

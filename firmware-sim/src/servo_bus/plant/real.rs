@@ -103,7 +103,13 @@ impl Real {
     fn position_loop(&mut self, error: f64, velocity: f64, gains: &Gains) -> f64 {
         let change = (error - self.error_before.unwrap_or(error)) / STEP_SECS;
         self.error_before = Some(error);
-        let wanted = gains.p * error + gains.d * change + gains.feed_forward * velocity + gains.i * self.sum;
+        let punch = if error.abs() >= 1.0 {
+            gains.punch.copysign(error)
+        } else {
+            0.0
+        };
+        let wanted =
+            punch + gains.p * error + gains.d * change + gains.feed_forward * velocity + gains.i * self.sum;
         // The sum stands still while the motor has no more to give.
         if wanted.abs() < gains.duty_max {
             self.sum += error * STEP_SECS;

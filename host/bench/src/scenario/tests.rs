@@ -9,102 +9,104 @@ fn outcome(text: &str) -> Outcome {
     run(&parse(text).expect("reads"), &RunOptions::default())
 }
 
+/// What is wrong, where it is told to be, and some of the words.
+const WRONG: &[(&str, u32, u32, &str)] = &[
+    ("at", 1, 3, "expected a time in seconds"),
+    ("at 1 dance", 1, 6, "expected turn, press"),
+    (
+        "at 1 turn knob 9 by 3",
+        1,
+        16,
+        "expected a dial, 1 to 8, found `9`",
+    ),
+    (
+        "at 1 turn knob 1 by 3 over",
+        1,
+        27,
+        "expected a duration in seconds",
+    ),
+    (
+        "at 2 undo\nat 1 undo",
+        2,
+        4,
+        "no earlier than the line before, 2 s, found 1",
+    ),
+    ("by 1 perform arm", 1, 6, "expected player, joint"),
+    (
+        "by 1 player is dancing",
+        1,
+        16,
+        "expected released, arming, holding, playing or faulted",
+    ),
+    (
+        "by 1 label dial 1 is Turn",
+        1,
+        22,
+        "expected a text in quotes, found `Turn`",
+    ),
+    ("at 1 fault servo 3 asleep on upper", 1, 20, "found `asleep`"),
+    ("at 1 fault noise", 1, 12, "expected a fault, `on` and a bus"),
+    ("use puppet marionette, hat red", 1, 24, "expected show, puppet"),
+    (
+        "use puppet marionette knobs x",
+        1,
+        23,
+        "expected the end of the line, found `knobs`",
+    ),
+    (
+        "always servos within reason",
+        1,
+        22,
+        "expected limits, range or speed",
+    ),
+    (
+        "at 1 do {\"undo\": 3}",
+        1,
+        18,
+        "expected a command as in journals",
+    ),
+    (
+        "sometimes it rains",
+        1,
+        1,
+        "expected use, at, by, within, always or never, found `sometimes`",
+    ),
+    ("by 1 joint a is 1 within -2", 1, 26, "expected a tolerance"),
+    (
+        "at 1 hand slaps left_elbow",
+        1,
+        11,
+        "expected turns, holds, pulls or lets",
+    ),
+    ("at 1 hand turns left_elbow to up", 1, 31, "expected an angle"),
+    ("at 1 fault servo 3 stuk on upper", 1, 20, "did you mean `stuck`?"),
+    (
+        "use stops of left_elbow at 1 and 0.5",
+        1,
+        34,
+        "an angle above the lower end",
+    ),
+    (
+        "by 1 register homing of left_elbow is 3",
+        1,
+        15,
+        "a register's role such as homing-offset",
+    ),
+    (
+        "by 1 life of left_elbow jumps at most 1",
+        1,
+        25,
+        "expected reboots, shutdowns",
+    ),
+];
+
 #[test]
 fn errors_have_a_place_and_say_what_was_expected() {
-    let rows = [
-        ("at", 1, 3, "expected a time in seconds"),
-        ("at 1 dance", 1, 6, "expected turn, press"),
-        (
-            "at 1 turn knob 9 by 3",
-            1,
-            16,
-            "expected a dial, 1 to 8, found `9`",
-        ),
-        (
-            "at 1 turn knob 1 by 3 over",
-            1,
-            27,
-            "expected a duration in seconds",
-        ),
-        (
-            "at 2 undo\nat 1 undo",
-            2,
-            4,
-            "no earlier than the line before, 2 s, found 1",
-        ),
-        ("by 1 perform arm", 1, 6, "expected player, joint"),
-        (
-            "by 1 player is dancing",
-            1,
-            16,
-            "expected released, arming, holding, playing or faulted",
-        ),
-        (
-            "by 1 label dial 1 is Turn",
-            1,
-            22,
-            "expected a text in quotes, found `Turn`",
-        ),
-        ("at 1 fault servo 3 asleep on upper", 1, 20, "found `asleep`"),
-        ("at 1 fault noise", 1, 12, "expected a fault, `on` and a bus"),
-        ("use puppet marionette, hat red", 1, 24, "expected show, puppet"),
-        (
-            "use puppet marionette knobs x",
-            1,
-            23,
-            "expected the end of the line, found `knobs`",
-        ),
-        (
-            "always servos within reason",
-            1,
-            22,
-            "expected limits, range or speed",
-        ),
-        (
-            "at 1 do {\"undo\": 3}",
-            1,
-            18,
-            "expected a command as in journals",
-        ),
-        (
-            "sometimes it rains",
-            1,
-            1,
-            "expected use, at, by, within, always or never, found `sometimes`",
-        ),
-        ("by 1 joint a is 1 within -2", 1, 26, "expected a tolerance"),
-        (
-            "at 1 hand slaps left_elbow",
-            1,
-            11,
-            "expected turns, holds, pulls or lets",
-        ),
-        ("at 1 hand turns left_elbow to up", 1, 31, "expected an angle"),
-        ("at 1 fault servo 3 stuk on upper", 1, 20, "did you mean `stuck`?"),
-        (
-            "use stops of left_elbow at 1 and 0.5",
-            1,
-            34,
-            "an angle above the lower end",
-        ),
-        (
-            "by 1 register homing of left_elbow is 3",
-            1,
-            15,
-            "a register's role such as homing-offset",
-        ),
-        (
-            "by 1 life of left_elbow jumps at most 1",
-            1,
-            25,
-            "expected reboots, shutdowns",
-        ),
-    ];
-    for (text, line, column, words) in rows {
+    for (text, line, column, words) in WRONG {
         let errors = parse(text).expect_err(text);
         let error = &errors[0];
         assert!(error.message.contains(words), "{text}: {error}");
-        assert_eq!((error.line, error.column), (line, column), "{text}: {error}");
+        assert_eq!((error.line, error.column), (*line, *column), "{text}: {error}");
     }
 }
 
