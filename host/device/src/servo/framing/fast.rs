@@ -67,7 +67,9 @@ impl FastRun {
         if self.next >= list.len() {
             return Step::End { damaged: None };
         }
+        // What is beyond the packet's length is not its own, so that the size of the pieces makes no difference.
         let ended = ended || bytes.len() >= self.left;
+        let bytes = bytes.get(..self.left).unwrap_or(bytes);
         if self.lost.is_some() {
             self.search(bytes, list, ended)
         } else {
@@ -79,7 +81,8 @@ impl FastRun {
         for (index, &(id, data)) in list.iter().enumerate().skip(self.next) {
             let size = usize::from(data) + BLOCK_OVERHEAD_BYTES;
             let Some(block) = bytes.get(..size) else {
-                if index == self.next && !ended {
+                let may_be_his = index == self.next || bytes.get(1) == Some(&id);
+                if may_be_his && !ended {
                     return Step::Short;
                 }
                 continue;

@@ -1,0 +1,3 @@
+//! What several fuzz targets share: how bytes become things that are done, and the laws that must hold.
+
+pub mod line;
