@@ -22,7 +22,7 @@ pub use knobs::{KnobsProfile, Labels};
 pub use policy::{Policy, Reaction};
 pub use profiles::{Kind, Profiles};
 pub use puppet::{Coupling, PuppetBus, PuppetGroup, PuppetJoint, PuppetProfile};
-pub use read::read_file;
+pub use read::{read_file, read_file_among};
 pub use servo::{
     Access, Area, HardwareFault, Motor, Register, Role, ServoProfile, ServoProtocol, Unit, Variant, WordOrder,
 };

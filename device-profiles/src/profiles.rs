@@ -1,6 +1,6 @@
 //! All profiles at hand: the embedded ones, and over them the user's own.
 
-use crate::read::{key_of, parse};
+use crate::read::{fitting, key_of, parse, text_of};
 use crate::{KnobsProfile, ProfileError, PuppetProfile, ServoProfile, TabletProfile};
 use include_dir::{Dir, include_dir};
 use std::collections::BTreeMap;
@@ -61,17 +61,32 @@ impl Profiles {
     }
 
     /// Adds every `.toml` below `folder`; one with an embedded profile's key takes its place.
-    /// A folder that does not exist adds nothing; every wrong file is reported, not only the first.
+    /// A folder that does not exist adds nothing; every wrong file is reported, not only the first, and so is a
+    /// puppet that does not fit the servos there are once all are added.
     pub fn with_user_folder(mut self, folder: &Path) -> Result<Self, Vec<ProfileError>> {
         let mut errors = Vec::new();
         let mut files = Vec::new();
         if folder.exists() {
             collect(folder, &mut files, &mut errors);
         }
+        let mut puppets = Vec::new();
         for path in files {
-            match crate::read_file(&path) {
-                Ok(profile) => self.add(profile),
+            let file = path.display().to_string();
+            let read = text_of(&path).and_then(|text| Ok((parse(&file, &key_of(&path), &text)?, text)));
+            match read {
+                Ok((profile, text)) => {
+                    if let Kind::Puppet(puppet) = &profile {
+                        puppets.push((file, text, puppet.clone()));
+                    }
+                    self.add(profile);
+                }
                 Err(found) => errors.extend(found),
+            }
+        }
+        // Against a servo that could not be read, a puppet is not judged: one mistake, one message.
+        if errors.is_empty() {
+            for (file, text, puppet) in puppets {
+                errors.extend(fitting(&file, &text, &puppet, &self).err().into_iter().flatten());
             }
         }
         if errors.is_empty() { Ok(self) } else { Err(errors) }

@@ -1,7 +1,7 @@
 //! Text to profile, with the place of every complaint.
 
 use crate::profiles::Kind;
-use crate::{KnobsProfile, ProfileError, PuppetProfile, ServoProfile, TabletProfile};
+use crate::{KnobsProfile, ProfileError, Profiles, PuppetProfile, ServoProfile, TabletProfile};
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
@@ -70,16 +70,42 @@ pub(crate) trait Check {
     fn flaws(&self, flaws: &mut Vec<Flaw>);
 }
 
-/// Reads one file, of whatever kind it is, and says everything that is wrong with it.
+/// Reads one file, of whatever kind it is, and says everything that is wrong with it in itself.
 /// Its name without the ending becomes the key.
 pub fn read_file(path: &Path) -> Result<Kind, Vec<ProfileError>> {
-    let text = std::fs::read_to_string(path).map_err(|e| {
+    let text = text_of(path)?;
+    parse(&path.display().to_string(), &key_of(path), &text)
+}
+
+/// Reads one file and says also what keeps it from working with the profiles there are: a puppet with servos
+/// that nobody knows, that cannot reach what it asks, or that cannot speak as fast as its bus.
+pub fn read_file_among(path: &Path, others: &Profiles) -> Result<Kind, Vec<ProfileError>> {
+    let text = text_of(path)?;
+    let file = path.display().to_string();
+    let profile = parse(&file, &key_of(path), &text)?;
+    match &profile {
+        Kind::Puppet(puppet) => fitting(&file, &text, puppet, others).map(|()| profile),
+        _ => Ok(profile),
+    }
+}
+
+/// Whether a puppet and its servos fit; `text` is the puppet's, for the places of what does not.
+pub(crate) fn fitting(
+    file: &str,
+    text: &str,
+    puppet: &PuppetProfile,
+    others: &Profiles,
+) -> Result<(), Vec<ProfileError>> {
+    contradictions(file, text, &crate::puppet::misfits(puppet, others))
+}
+
+pub(crate) fn text_of(path: &Path) -> Result<String, Vec<ProfileError>> {
+    std::fs::read_to_string(path).map_err(|e| {
         vec![ProfileError::Unreadable {
             path: path.to_owned(),
             why: e.to_string(),
         }]
-    })?;
-    parse(&path.display().to_string(), &key_of(path), &text)
+    })
 }
 
 /// A file's name without its ending, in lower case.
@@ -127,8 +153,13 @@ fn typed<P: DeserializeOwned + Check>(file: &str, text: &str) -> Result<P, Vec<P
     let profile: P = toml::from_str(text).map_err(|e| vec![syntax(file, text, &e)])?;
     let mut flaws = Vec::new();
     profile.flaws(&mut flaws);
+    contradictions(file, text, &flaws).map(|()| profile)
+}
+
+/// Every flaw as an error with its place; none is well.
+fn contradictions(file: &str, text: &str, flaws: &[Flaw]) -> Result<(), Vec<ProfileError>> {
     if flaws.is_empty() {
-        return Ok(profile);
+        return Ok(());
     }
     let errors = flaws.iter().map(|flaw| {
         let (line, column) = line_and_column(text, flaw.offset(text));

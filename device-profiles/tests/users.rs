@@ -326,3 +326,150 @@ fn right_variants_and_couplings_are_taken() {
     assert_eq!(names(53), (53, "Moving".to_owned(), rows));
     assert_eq!(names(60), (53, "Moving".to_owned(), rows));
 }
+
+const ARM: &str = include_str!("../puppets/so-101.toml");
+
+#[test]
+fn a_puppet_that_does_not_fit_its_servos_is_refused_at_its_place() {
+    let rows = [
+        (
+            "model = \"STS3215\"",
+            "model = \"STS3512\"",
+            "there is no servo profile named \"STS3512\"; there are: ax-12a, ",
+            "[[group.joint]]",
+        ),
+        (
+            "zero_counts = 1536",
+            "zero_counts = 100",
+            "joint \"gripper\": its range is counts -14 to 1238, and STS3215 takes goals from 0 to 4095; mount the horn",
+            "[[group.joint]]",
+        ),
+        (
+            "baud = 1000000",
+            "baud = 2000000",
+            "bus \"arm\" has 2000000 baud, which STS3215 cannot; it can 1000000, 500000, ",
+            "[[bus]]",
+        ),
+    ];
+    for (at, (from, to, message, place)) in rows.into_iter().enumerate() {
+        check_refused(&format!("misfit-{at}"), &ARM.replace(from, to), message, place);
+    }
+}
+
+/// A servo and the puppet that uses it, both the user's own, in either order of their names.
+#[test]
+fn a_users_puppet_may_use_a_users_servo() {
+    let puppet = ARM.replace("STS3215", "mine");
+    let servo = include_str!("../servos/sts3215.toml").replace("\"STS3215\"", "\"Mine\"");
+    for names in [["a.toml", "mine.toml"], ["zebra.toml", "mine.toml"]] {
+        let folder = folder(
+            &format!("pair-{}", names[0]),
+            &[(names[0], &puppet), (names[1], &servo)],
+        );
+        let all = Profiles::builtin().with_user_folder(&folder).unwrap();
+        assert_eq!(all.servo("mine").unwrap().name, "Mine");
+    }
+    let alone = folder("alone", &[("a.toml", &puppet)]);
+    assert!(Profiles::builtin().with_user_folder(&alone).is_err());
+}
+
+#[test]
+fn what_a_field_of_a_servo_may_be_is_said() {
+    let rows = [
+        (
+            "\"dynamixel2\"",
+            "\"dynamixel3\"",
+            "expected one of `dynamixel2`, `dynamixel1`, `sts`, `scs`",
+            "\"dynamixel3",
+        ),
+        (
+            "role = \"id\"",
+            "role = \"identity\"",
+            "unknown variant `identity`, expected one of `model-number`",
+            "\"identity",
+        ),
+        (
+            "firmware = 53\n",
+            "firmware = 53\nword_order = \"middle\"\n",
+            "expected `little` or `big`",
+            "\"middle",
+        ),
+        (
+            "overload = 5",
+            "overload = 8",
+            "fault_bits must be bits 0 to 7 of a byte, found 8 for overload",
+            "fault_bits",
+        ),
+        (
+            "overload = 5",
+            "boredom = 5",
+            "unknown variant `boredom`",
+            "boredom",
+        ),
+        (
+            "stall_torque_nm = 0.52",
+            "stall_torque_nm = -0.5",
+            "stall_torque_nm must be above 0, found -0.5",
+            "stall_torque_nm",
+        ),
+        (
+            "standby_current_a = 0.017",
+            "standby_current_a = -1.0",
+            "standby_current_a must be at least 0",
+            "standby",
+        ),
+        ("sync_read = true\n", "", "missing field `sync_read`", ""),
+        (
+            "counts_per_turn = 4096.0",
+            "counts_per_turn = 0.0",
+            "counts_per_turn must be at least 1",
+            "counts_per_turn",
+        ),
+    ];
+    for (at, (from, to, message, place)) in rows.into_iter().enumerate() {
+        check_refused(
+            &format!("servo-field-{at}"),
+            &SERVO.replace(from, to),
+            message,
+            place,
+        );
+    }
+}
+
+#[test]
+fn what_a_field_of_a_puppet_may_be_is_said() {
+    let rows = [
+        (
+            "on_heat = \"back-off\"",
+            "on_heat = \"sweat\"",
+            "expected one of `back-off`, `hold`, `release`",
+            "\"sweat",
+        ),
+        (
+            "baud = 1000000\n",
+            "baud = 1000000\nusb_serial = 7\n",
+            "expected a string",
+            "7",
+        ),
+        (
+            "length_m = 0.18\n",
+            "length_m = 0.18\nmass_kg = -1.0\n",
+            "mass_kg of at least 0",
+            "[[group]]",
+        ),
+        (
+            "accel_max_rad_per_s2 = 40.0\n",
+            "accel_max_rad_per_s2 = 40.0\njerk_max_rad_per_s3 = 0.0\n",
+            "jerk_max_rad_per_s3 must be above 0, found 0",
+            "[[group.joint]]",
+        ),
+    ];
+    for (at, (from, to, message, place)) in rows.into_iter().enumerate() {
+        check_refused(
+            &format!("puppet-field-{at}"),
+            &PUPPET.replace(from, to),
+            message,
+            place,
+        );
+    }
+}

@@ -5,6 +5,9 @@
 //! All groups' frames are parallel at rest only if their rpy are zero; nothing here requires that.
 
 mod check;
+mod fit;
+
+pub(crate) use fit::misfits;
 
 use crate::{Policy, Status};
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use device_profiles::ProfileError;
+use device_profiles::{ProfileError, Profiles};
 use ps300::language::{self, Diagnostic, Severity};
 
 use super::bvh;
@@ -144,7 +144,10 @@ fn check_bvh(source: &Source, found: &mut Findings) {
 
 /// Clips and shows carry a version; hardware profiles are known by their tables.
 fn check_toml(source: &Source, found: &mut Findings) {
-    match device_profiles::read_file(source.path()) {
+    // With a broken profile among the user's own, that one is what he is told of when he checks it.
+    let known = crate::shipped::profiles(crate::shipped::user_profiles_folder().as_deref())
+        .unwrap_or_else(|_| Profiles::builtin());
+    match device_profiles::read_file_among(source.path(), &known) {
         Ok(_) => {}
         Err(errors)
             if errors
