@@ -179,7 +179,7 @@ impl Lines {
             measured_rad: reading.map(|reading| reading.position_rad),
             measured_at: reading.map(|reading| reading.at),
             velocity_rad_per_s: reading.map_or(0.0, |reading| reading.velocity_rad_per_s),
-            load: reading.map(|reading| reading.load),
+            load: reading.and_then(|reading| reading.load),
             voltage_v: supply.voltage_v,
             temperature_c: supply.temperature_c,
             error_bits: supply.error_bits,

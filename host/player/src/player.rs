@@ -13,7 +13,6 @@ use crate::puppet::{Puppet, PuppetError};
 use crate::report::{JointReport, Report};
 use device::servo::{Armed, Bus, BusEvent, Commanded, Refusal};
 use device::{Instant, Transport};
-use std::time::Duration;
 
 /// Events of one poll that are kept; more can only repeat themselves.
 const EVENTS_MAX: usize = 256;
@@ -228,23 +227,10 @@ impl Player {
         self.events = events;
     }
 
-    /// Waits on all lines until `until`, or until bytes have come on one of them.
+    /// Waits on all lines until `until`, or until it is worth listening to one of them.
     pub(crate) fn wait(&mut self, clock: &dyn device::Clock, until: Instant) {
-        // One transport can be waited for at a time: short turns bound what the others lose.
-        let turn = Duration::from_millis(1);
-        for line in &mut self.lines.all {
-            if line.lost {
-                continue;
-            }
-            let end = until.min(clock.now().after(turn));
-            line.bus.wait(clock, end);
-            if clock.now() < end {
-                return;
-            }
-        }
-        if self.lines.all.iter().all(|line| line.lost) {
-            clock.sleep_until(until.min(clock.now().after(turn)));
-        }
+        let there = self.lines.all.iter_mut().filter(|line| !line.lost);
+        Bus::wait_any(there.map(|line| &mut line.bus), clock, until);
     }
 
     pub(crate) fn lose(&mut self, at: usize, why: String, now: Instant) {

@@ -20,6 +20,7 @@ use motion::joint_clip::JointClip;
 use proptest::prelude::*;
 use responder::{ERROR, POSITION, Responder, TEMPERATURE, TORQUE};
 use std::sync::Arc;
+use std::time::Duration;
 
 const PERIOD: Duration = Duration::from_millis(20);
 

@@ -4,7 +4,7 @@
 
 use super::bus::{Bus, BusError};
 use super::event::{Armed, BusEvent, Commanded, Goal, Intervention};
-use crate::clock::Clock;
+use crate::clock::{Clock, Instant};
 use std::time::Duration;
 
 /// How long to wait for bytes while nothing is due: the time within which a command should be noticed.
@@ -77,10 +77,12 @@ impl Bus {
     fn finish_blocking(&mut self, clock: &dyn Clock, emit: &mut dyn FnMut(BusEvent)) -> Result<(), BusError> {
         loop {
             self.poll(clock.now(), emit)?;
-            if self.deadline().is_none() {
+            // Companies that did not fit into the same write follow here.
+            self.read_on(clock.now(), Instant::from_nanos(u64::MAX))?;
+            let Some(deadline) = self.deadline() else {
                 return Ok(());
-            }
-            self.pause(clock);
+            };
+            self.wait(clock, deadline);
         }
     }
 

@@ -5,6 +5,7 @@
 //! waits, but for the functions called `..._blocking`.
 
 use super::arming::{Arming, Refusal};
+use super::company::Company;
 use super::cycle::Cycle;
 use super::event::{Armed, BusCounters, Presence};
 use super::limit::Limiter;
@@ -15,8 +16,9 @@ use super::release::Releasing;
 use super::settings::BusSettings;
 use super::slot::Slot;
 use super::table::Table;
+use super::writes::GoalGroup;
 use crate::clock::{Clock, Instant};
-use crate::transport::{Transport, TransportError};
+use crate::transport::{Awaited, LINES_MAX, Transport, TransportError, wait_any};
 
 /// Why a bus cannot do what was asked.
 #[derive(Debug, thiserror::Error)]
@@ -57,18 +59,6 @@ pub enum BusError {
         /// Their id.
         id: u8,
     },
-    /// Two models whose registers lie in different places cannot share sync instructions.
-    #[error(
-        "bus \"{bus}\": \"{first}\" and \"{second}\" have different control tables; put them on two buses"
-    )]
-    MixedTables {
-        /// The bus's name.
-        bus: String,
-        /// One model.
-        first: String,
-        /// The other.
-        second: String,
-    },
     /// A bus without servos.
     #[error("bus \"{bus}\" has no members; list at least one joint on it")]
     Empty {
@@ -107,7 +97,8 @@ pub(super) enum Mode {
 pub struct Bus {
     pub(super) settings: BusSettings,
     pub(super) slots: Vec<Slot>,
-    pub(super) table: Table,
+    pub(super) companies: Vec<Company>,
+    pub(super) goals: Vec<GoalGroup>,
     pub(super) line: Line,
     pub(super) mode: Mode,
     pub(super) cycle: Cycle,
@@ -137,21 +128,13 @@ impl Bus {
         settings: BusSettings,
     ) -> Result<Self, BusError> {
         let bus = settings.name.clone();
-        let Some(first) = members.first() else {
+        if members.is_empty() {
             return Err(BusError::Empty { bus });
-        };
-        let register = |source| BusError::Register {
-            bus: settings.name.clone(),
-            source,
-        };
-        let table = Table::of(first).map_err(register)?;
-        for (at, member) in members.iter().enumerate() {
-            if !Table::of(member).map_err(register)?.same_places(&table) {
-                let [first, second] = [first, member].map(|member| member.servo().name.clone());
-                return Err(BusError::MixedTables { bus, first, second });
-            }
-            if let Some(other) = members.iter().take(at).find(|other| other.id() == member.id()) {
-                let [first, second] = [other, member].map(|member| member.joint().to_owned());
+        }
+        let mut slots: Vec<Slot> = Vec::with_capacity(members.len());
+        for member in members {
+            if let Some(other) = slots.iter().find(|other| other.member.id() == member.id()) {
+                let [first, second] = [&other.member, &member].map(|member| member.joint().to_owned());
                 return Err(BusError::SameId {
                     bus,
                     first,
@@ -159,15 +142,24 @@ impl Bus {
                     id: member.id(),
                 });
             }
+            let table = Table::of(member.servo(), settings.readings);
+            let table = table.map_err(|source| BusError::Register {
+                bus: bus.clone(),
+                source,
+            })?;
+            slots.push(Slot::new(member, &table));
         }
         let mut line = Line::new(transport, settings.baud, settings.answer_slack);
+        line.set_alert(settings.alert);
         line.set_baud(settings.baud)
             .map_err(|source| BusError::transport(&bus, source))?;
+        let companies = Company::all(&slots);
         Ok(Self {
-            cycle: Cycle::new(members.len()),
-            slots: members.into_iter().map(Slot::new).collect(),
+            cycle: Cycle::new(&slots, &companies),
+            goals: GoalGroup::all(&slots),
+            companies,
+            slots,
             settings,
-            table,
             line,
             mode: Mode::Loose,
             refusals: Vec::new(),
@@ -247,7 +239,8 @@ impl Bus {
     pub fn counters(&self) -> BusCounters {
         let line = self.line.counters();
         BusCounters {
-            stale: self.counters.stale + line.stray_answers,
+            stale: self.counters.stale + line.late_answers,
+            strays: line.stray_answers,
             timeouts: line.timeouts,
             rejected: line.rejected,
             echoes: line.echoes,
@@ -257,9 +250,23 @@ impl Bus {
         }
     }
 
-    /// Waits on the line for bytes, until the clock reads `until`.
+    /// Waits until it is worth calling [`Bus::poll`]: answers are there, or overdue; at the latest until the clock reads
+    /// `until`. Answers that come one by one do not wake it before the last is due.
     pub fn wait(&mut self, clock: &dyn Clock, until: Instant) {
-        self.line.transport_mut().wait(clock, until);
+        self.line.wait(clock, until);
+    }
+
+    /// The same for several buses: returns when it is worth polling one of them. None of them waits for another.
+    /// At most [`crate::transport::LINES_MAX`] buses are watched.
+    pub fn wait_any<'a>(buses: impl IntoIterator<Item = &'a mut Self>, clock: &dyn Clock, until: Instant) {
+        let mut buses = buses.into_iter();
+        let mut until = until;
+        let mut lines: [Option<Awaited<'a>>; LINES_MAX] = std::array::from_fn(|_| {
+            let bus = buses.next()?;
+            until = bus.deadline().map_or(until, |deadline| deadline.min(until));
+            Some(bus.line.awaited())
+        });
+        wait_any(&mut lines, clock, until);
     }
 
     /// When [`Bus::poll`] should be called again at the latest, if answers are outstanding.
@@ -278,16 +285,13 @@ impl Bus {
             slot.pin = None;
             slot.presence = Presence::Present;
             slot.misses = 0;
+            slot.firmware = None;
             slot.freshness.forget();
         }
         let baud = self.settings.baud;
         self.line
             .set_baud(baud)
             .map_err(|source| BusError::transport(&self.settings.name, source))
-    }
-
-    pub(super) fn ids(&self) -> Vec<u8> {
-        self.slots.iter().map(|slot| slot.member.id()).collect()
     }
 
     /// Throws away what is on the line.

@@ -1,64 +1,83 @@
-//! The cycle: goals out and readings in, in one write, and health in what is left of the period.
+//! The cycle: goals out and readings in, in one write, and what is left to read in what is left of the period.
+//!
+//! A bus of one company is read whole with every command. Where there are several companies (two protocols, or servos
+//! without group reads) the first of those whose turn it is goes with the command, and the others follow one by one
+//! as long as there is time ([`Bus::use_pause`]); who was not reached comes first next time. Goals go to all, always.
 //!
 //! A servo that does not answer can silence those behind it (some firmware waits for the one before), so
 //! members are asked in an order: those that answered first, then those that did not, the one to blame last.
 //! Only a member whose predecessors all answered is blamed.
 
+use super::ask::{Asked, Chosen};
 use super::bus::{Bus, BusError, Mode};
+use super::company::Company;
 use super::event::{Armed, BusEvent, Commanded, Goal, Intervention, Presence};
-use super::framing::dynamixel2;
-use super::freshness::Verdict;
 use super::health::{CONFIRMATIONS, Item};
-use super::line::{Answer, Progress};
+use super::line::Progress;
 use super::slot::Slot;
-use super::table::Table;
 use crate::clock::Instant;
-use std::time::Duration;
 
 /// So often in a row a member must be the one to blame before it counts as absent: at one answer in ten lost
 /// this happens by chance once in 10^10 cycles.
 const MISSES_MAX: u32 = 10;
-/// Time left in a period, beyond an exchange's own, for it to be begun.
-const MARGIN: Duration = Duration::from_millis(2);
-
-/// What is being read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Asked {
-    Status,
-    Health(Item),
-}
+/// After so many answers in a row that were taken for late, what is known of that servo's clock is doubted: the
+/// line is let fall silent, and all are measured and pinned again.
+const LATE_IN_A_ROW_MAX: u8 = 6;
+/// Health readings in one health interval on a bus of one company; more companies are read as often.
+const ITEMS: u32 = Item::ALL.len() as u32;
 
 /// Where the cycle stands.
 #[derive(Debug)]
 pub(super) struct Cycle {
-    asked: Option<Asked>,
-    /// Members in the order in which they are asked.
-    order: Vec<usize>,
-    asked_count: usize,
+    pub(super) asked: Option<Asked>,
+    /// The company that is asked.
+    pub(super) company: usize,
+    /// By a fast read.
+    pub(super) fast: bool,
+    pub(super) chosen: Vec<Chosen>,
+    /// Counts commands and observations.
+    pub(super) number: u64,
+    /// The company whose positions are read next.
+    turn: usize,
+    /// Companies that are still to be read in this cycle.
+    left: usize,
+    /// What is read beside positions, in turn.
+    rounds: Vec<(usize, Item)>,
+    round: usize,
     commanded: Instant,
     health_at: Instant,
-    item: Item,
-    urgent: bool,
-    since_probe: u32,
+    /// A company of which a servo says that something is wrong.
+    pub(super) urgent: Option<usize>,
+    /// When the first ping was sent of those not answered yet.
+    pub(super) pinging_since: Option<Instant>,
     /// What was found out while goals were sent; told at the next poll.
     pending: Vec<BusEvent>,
     /// Confirmations so far that a member has lost torque, or tripped.
-    lost: Vec<[u8; 2]>,
+    pub(super) lost: Vec<[u8; 2]>,
 }
 
 impl Cycle {
-    pub(super) fn new(members: usize) -> Self {
+    pub(super) fn new(slots: &[Slot], companies: &[Company]) -> Self {
+        let rounds = companies.iter().enumerate().flat_map(|(at, company)| {
+            let items = company.health(slots).into_iter();
+            items.map(move |item| (at, item))
+        });
         Self {
             asked: None,
-            order: (0..members).collect(),
-            asked_count: 0,
+            company: 0,
+            fast: false,
+            chosen: Vec::with_capacity(slots.len()),
+            number: 0,
+            turn: 0,
+            left: 0,
+            rounds: rounds.collect(),
+            round: 0,
             commanded: Instant::ZERO,
             health_at: Instant::ZERO,
-            item: Item::Errors,
-            urgent: false,
-            since_probe: 0,
-            pending: Vec::with_capacity(members),
-            lost: vec![[0; 2]; members],
+            urgent: None,
+            pinging_since: None,
+            pending: Vec::with_capacity(slots.len() * 2),
+            lost: vec![[0; 2]; slots.len()],
         }
     }
 
@@ -68,10 +87,19 @@ impl Cycle {
 
     pub(super) fn restart(&mut self, now: Instant) {
         self.asked = None;
+        self.left = 0;
         self.commanded = now;
         self.health_at = now;
-        self.urgent = false;
+        self.urgent = None;
         self.lost.fill([0; 2]);
+    }
+
+    /// The company whose turn it is, which goes to the next.
+    fn take_turn(&mut self, companies: usize) -> usize {
+        let turn = self.turn;
+        self.turn = (turn + 1) % companies.max(1);
+        self.left = self.left.saturating_sub(1);
+        turn
     }
 }
 
@@ -113,18 +141,10 @@ impl Bus {
         self.cycle.commanded = now;
         self.counters.cycles += 1;
         self.limit(goal, since.as_secs_f64(), note);
-        let goal_address = self.table.goal.address;
-        let Self { line, slots, .. } = self;
-        let goals = slots.iter().filter_map(|slot| {
-            let rad = slot.limiter.as_ref()?.position_rad();
-            Some((
-                slot.member.id(),
-                (slot.member.position_counts(rad) as u32).to_le_bytes(),
-            ))
-        });
-        // At most 253 ids with 5 bytes each: cannot be too long.
-        let _ = dynamixel2::sync_write(line.packet(), goal_address, goals);
-        self.ask_due(now)?;
+        self.line.packet();
+        let first = self.begin_cycle();
+        self.append_goals(first);
+        self.ask_first(first, now)?;
         Ok(Commanded::Sent)
     }
 
@@ -136,7 +156,8 @@ impl Bus {
         }
         self.settle();
         self.line.packet();
-        self.ask_due(now)?;
+        let first = self.begin_cycle();
+        self.ask_first(first, now)?;
         Ok(Commanded::Sent)
     }
 
@@ -147,6 +168,126 @@ impl Bus {
             Mode::Arming(_) => self.poll_arming(now, emit),
             Mode::Releasing(_) => self.poll_releasing(now, emit),
             Mode::Loose | Mode::Armed => self.poll_cycle(now, emit),
+        }
+    }
+
+    /// Uses time in which no goals are due, until `until`, for what is still to be read in this cycle, then for the
+    /// next health reading. Never waits; call it whenever [`Bus::poll`] was called. Without it companies are read in
+    /// turn, one with each command, and health is read instead of positions now and then.
+    pub fn use_pause(&mut self, now: Instant, until: Instant) -> Result<(), BusError> {
+        if !self.is_idle() {
+            return Ok(());
+        }
+        self.read_on(now, until)?;
+        let due = self.cycle.urgent.is_some() || now.since(self.cycle.health_at) >= self.health_interval();
+        if !self.is_idle() || !due {
+            return Ok(());
+        }
+        let Some((company, item)) = self.next_health() else {
+            return Ok(());
+        };
+        if now.after(self.time_for(company)) > until {
+            return Ok(());
+        }
+        self.take_health_turn(now);
+        self.line.packet();
+        self.ask(company, Asked::Health(item), now)?;
+        Ok(())
+    }
+
+    /// Goes on with the companies that are still to be read, if there is time.
+    pub(super) fn read_on(&mut self, now: Instant, until: Instant) -> Result<(), BusError> {
+        while self.is_idle() && self.cycle.left > 0 {
+            if now.after(self.time_for(self.cycle.turn)) > until {
+                return Ok(());
+            }
+            let company = self.cycle.take_turn(self.companies.len());
+            self.line.packet();
+            self.ask(company, Asked::Status, now)?;
+        }
+        Ok(())
+    }
+
+    /// Whether nothing is on the line, or under way.
+    fn is_idle(&self) -> bool {
+        matches!(self.mode, Mode::Loose | Mode::Armed) && self.line.deadline().is_none()
+    }
+
+    /// Starts counting anew, and gives the company that is read first.
+    fn begin_cycle(&mut self) -> usize {
+        let companies = self.companies.len();
+        self.cycle.number += 1;
+        self.cycle.left = companies;
+        // Whoever is not there need not be asked with the goals.
+        for _ in 1..companies {
+            let absent = self
+                .companies
+                .get(self.cycle.turn)
+                .is_some_and(|company| company.is_absent(&self.slots));
+            if !absent {
+                break;
+            }
+            self.cycle.turn = (self.cycle.turn + 1) % companies.max(1);
+        }
+        self.cycle.turn
+    }
+
+    /// The goals of all, those in the protocol of the company that is read first behind the others.
+    fn append_goals(&mut self, first: usize) {
+        let Self {
+            line,
+            slots,
+            goals,
+            companies,
+            ..
+        } = self;
+        let Some(protocol) = companies.get(first).map(|company| company.protocol) else {
+            return;
+        };
+        for group in goals.iter().filter(|group| group.protocol != protocol) {
+            group.append(line, slots);
+        }
+        line.speak(protocol);
+        line.begin_own();
+        for group in goals.iter().filter(|group| group.protocol == protocol) {
+            group.append(line, slots);
+        }
+    }
+
+    /// Appends the read that is due to the packets waiting to be sent, and sends them.
+    fn ask_first(&mut self, first: usize, now: Instant) -> Result<(), BusError> {
+        let overdue = now.since(self.cycle.health_at) >= self.health_interval() * 2;
+        let health = (self.cycle.urgent.is_some() || overdue).then(|| self.next_health());
+        let asked = if let Some((company, item)) = health.flatten() {
+            self.take_health_turn(now);
+            self.ask(company, Asked::Health(item), now)?
+        } else {
+            self.cycle.take_turn(self.companies.len());
+            self.ask(first, Asked::Status, now)?
+        };
+        if !asked {
+            // Goals are for those who cannot be asked, too.
+            self.send_unanswered(now)?;
+        }
+        Ok(())
+    }
+
+    fn health_interval(&self) -> std::time::Duration {
+        let rounds = u32::try_from(self.cycle.rounds.len()).unwrap_or(u32::MAX);
+        self.settings.health_interval * ITEMS / rounds.max(ITEMS)
+    }
+
+    /// What is to be read next beside the positions.
+    fn next_health(&self) -> Option<(usize, Item)> {
+        let next = self.cycle.rounds.get(self.cycle.round).copied();
+        let errors = |company| (company, Item::Errors);
+        self.cycle.urgent.map(errors).or(next)
+    }
+
+    fn take_health_turn(&mut self, now: Instant) {
+        self.cycle.health_at = now;
+        if self.cycle.urgent.take().is_none() {
+            self.cycle.round = (self.cycle.round + 1) % self.cycle.rounds.len().max(1);
         }
     }
 
@@ -173,112 +314,8 @@ impl Bus {
         }
     }
 
-    /// Appends the read that is due to the packets waiting to be sent, and sends them.
-    fn ask_due(&mut self, now: Instant) -> Result<(), BusError> {
-        let overdue = now.since(self.cycle.health_at) >= self.settings.health_interval * 2;
-        let asked = if self.cycle.urgent || overdue {
-            self.next_health(now)
-        } else {
-            Asked::Status
-        };
-        self.ask(asked, now)
-    }
-
-    fn next_health(&mut self, now: Instant) -> Asked {
-        self.cycle.health_at = now;
-        if std::mem::take(&mut self.cycle.urgent) {
-            return Asked::Health(Item::Errors);
-        }
-        let item = self.cycle.item;
-        self.cycle.item = item.next();
-        Asked::Health(item)
-    }
-
-    fn ask(&mut self, asked: Asked, now: Instant) -> Result<(), BusError> {
-        let block = match asked {
-            Asked::Status => self.table.status,
-            Asked::Health(item) => item.block(&self.table),
-        };
-        self.cycle.since_probe += 1;
-        let probing = asked == Asked::Status && self.cycle.since_probe >= self.settings.probe_cycles;
-        if probing {
-            self.cycle.since_probe = 0;
-        }
-        let slots = &self.slots;
-        let wanted = |at: &usize| match slots.get(*at).map(|slot| slot.presence) {
-            Some(Presence::Present) => true,
-            Some(Presence::Doubtful) => asked == Asked::Status,
-            Some(Presence::Absent) => probing,
-            None => false,
-        };
-        let rank = |at: &usize| slots.get(*at).map(|slot| (slot.presence as u8, slot.misses));
-        // Stable, so that it changes nothing while all answer. A merge sort of a list that is nearly in order
-        // already; lists of up to 20 are sorted in place without allocating.
-        self.cycle.order.sort_by_key(rank);
-        let ids = || {
-            let chosen = self.cycle.order.iter().filter(|at| wanted(at));
-            chosen
-                .filter_map(|at| slots.get(*at))
-                .map(|slot| slot.member.id())
-        };
-        let count = ids().count();
-        if count > 0 {
-            let _ = dynamixel2::sync_read(self.line.packet_so_far(), block.address, block.bytes, ids());
-        }
-        self.cycle.asked = (count > 0).then_some(asked);
-        self.cycle.asked_count = count;
-        let sent = self.line.send(now, ids(), usize::from(block.bytes));
-        sent.map_err(|source| BusError::transport(&self.settings.name, source))
-    }
-
     fn poll_cycle(&mut self, now: Instant, emit: &mut dyn FnMut(BusEvent)) -> Result<(), BusError> {
-        let Self {
-            line,
-            slots,
-            table,
-            counters,
-            cycle,
-            settings,
-            ..
-        } = self;
-        let asked = cycle.asked;
-        let mut urgent = false;
-        let lost = &mut cycle.lost;
-        let progress = line
-            .poll(now, &mut |answer| {
-                let at = slots.iter().position(|slot| slot.member.id() == answer.status.id);
-                let Some((member, slot)) = at.and_then(|at| Some((at, slots.get_mut(at)?))) else {
-                    return;
-                };
-                urgent |= answer.status.error.alert() && slot.supply.error_bits == 0;
-                if answer.status.error.number() != 0 {
-                    emit(BusEvent::Refused {
-                        member,
-                        error: answer.status.error.number(),
-                    });
-                    return;
-                }
-                match asked {
-                    Some(Asked::Status) => {
-                        if let Some(event) = slot.take_status(table, member, &answer, now) {
-                            counters.stale += u64::from(matches!(event, BusEvent::Stale { .. }));
-                            counters.implausible += u64::from(matches!(event, BusEvent::Implausible { .. }));
-                            emit(event);
-                        }
-                    }
-                    Some(Asked::Health(item)) => {
-                        let confirmed = lost.get_mut(member);
-                        let event = slot.take_health(table, member, item, &answer, confirmed, settings.hot_c);
-                        if let Some(event) = event {
-                            emit(event);
-                        }
-                    }
-                    None => {}
-                }
-            })
-            .map_err(|source| BusError::transport(&settings.name, source))?;
-        cycle.urgent |= urgent;
-        if progress == Progress::Done {
+        if self.take_answers(now, emit)? == Progress::Done {
             self.settle_and_tell(emit);
         }
         let tripped = self.cycle.lost.iter().any(|lost| lost[1] >= CONFIRMATIONS);
@@ -291,23 +328,6 @@ impl Bus {
             self.begin_pinning(now)?;
         }
         Ok(())
-    }
-
-    /// Uses time in which no goals are due, until `until`, for the next health reading. Never waits. Without
-    /// it, health is read instead of positions now and then.
-    pub fn use_pause(&mut self, now: Instant, until: Instant) -> Result<(), BusError> {
-        let idle = matches!(self.mode, Mode::Loose | Mode::Armed) && self.line.deadline().is_none();
-        let due = self.cycle.urgent || now.since(self.cycle.health_at) >= self.settings.health_interval;
-        let bytes = self.slots.len() + dynamixel2::INSTRUCTION_OVERHEAD_BYTES + 4;
-        let takes = self
-            .line
-            .exchange_time(bytes, self.slots.len(), usize::from(self.table.supply.bytes));
-        if !idle || !due || now.after(takes + MARGIN) > until {
-            return Ok(());
-        }
-        self.line.packet();
-        let asked = self.next_health(now);
-        self.ask(asked, now)
     }
 
     /// Closes an exchange of which nothing more is expected.
@@ -326,62 +346,42 @@ impl Bus {
     fn settle_and_tell(&mut self, emit: &mut dyn FnMut(BusEvent)) {
         let asked = self.cycle.asked.take();
         if asked == Some(Asked::Status) {
-            let mut to_blame = true;
-            for id in self.line.missing() {
-                let at = self.slots.iter().position(|slot| slot.member.id() == id);
-                let Some((member, slot)) = at.and_then(|at| Some((at, self.slots.get_mut(at)?))) else {
-                    continue;
-                };
-                // Only the first is certainly to blame: the others may have waited for it.
-                if to_blame && slot.presence != Presence::Absent {
-                    slot.misses += 1;
-                    if slot.misses >= MISSES_MAX {
-                        slot.presence = Presence::Absent;
-                        emit(BusEvent::Silent { member });
-                    }
+            let well = self.line.missing().next().is_none();
+            if self.cycle.fast {
+                // One damaged packet blames nobody: the next read is plain, and tells who is missing.
+                if let Some(company) = self.companies.get_mut(self.cycle.company) {
+                    company.fast.went(well);
                 }
-                if slot.presence == Presence::Present {
-                    slot.presence = Presence::Doubtful;
-                }
-                to_blame = false;
+                self.counters.fast_failures += u64::from(!well);
+            } else if !well {
+                self.blame(emit);
             }
         }
         self.line.abandon();
     }
-}
 
-/// After so many answers in a row that were taken for late, what is known of that servo's clock is doubted: the
-/// line is let fall silent, and all are measured and pinned again.
-const LATE_IN_A_ROW_MAX: u8 = 6;
-
-impl Slot {
-    /// Takes in one answer to the status read; the event says what was wrong with it, or that it is back.
-    fn take_status(
-        &mut self,
-        table: &Table,
-        member: usize,
-        answer: &Answer<'_>,
-        now: Instant,
-    ) -> Option<BusEvent> {
-        let was = self.presence;
-        let reading = match self
-            .member
-            .reading(answer.status.data, table.status.address, answer.measured)
-        {
-            Ok(reading) => reading,
-            Err(counts) => return Some(BusEvent::Implausible { member, counts }),
-        };
-        match self.freshness.judge(reading.tick, answer.sent, answer.turn, now) {
-            Verdict::Fresh => self.late_in_a_row = 0,
-            Verdict::Stale { by_ms } => {
-                self.late_in_a_row = self.late_in_a_row.saturating_add(1);
-                return Some(BusEvent::Stale { member, by_ms });
+    /// Finds out who is to blame for answers that did not come.
+    fn blame(&mut self, emit: &mut dyn FnMut(BusEvent)) {
+        let mut to_blame = true;
+        for id in self.line.missing() {
+            let chosen = self.cycle.chosen.iter().find(|chosen| chosen.id == id);
+            let at = chosen.map(|chosen| chosen.member);
+            let Some((member, slot)) = at.and_then(|at| Some((at, self.slots.get_mut(at)?))) else {
+                continue;
+            };
+            // Only the first is certainly to blame: the others may have waited for it.
+            if to_blame && slot.presence != Presence::Absent {
+                slot.misses += 1;
+                if slot.misses >= MISSES_MAX {
+                    slot.presence = Presence::Absent;
+                    slot.probe_at = self.cycle.number + u64::from(self.settings.probe_cycles);
+                    emit(BusEvent::Silent { member });
+                }
             }
-            Verdict::Restarted => return Some(BusEvent::Restarted { member }),
+            if slot.presence == Presence::Present {
+                slot.presence = Presence::Doubtful;
+            }
+            to_blame = false;
         }
-        self.reading = Some(reading);
-        self.presence = Presence::Present;
-        self.misses = 0;
-        (was == Presence::Absent).then_some(BusEvent::Returned { member })
     }
 }

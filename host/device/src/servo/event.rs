@@ -136,10 +136,18 @@ pub struct BusCounters {
     pub busy: u64,
     /// Late answers thrown away, whichever way they were recognised.
     pub stale: u64,
+    /// Answers thrown away that fit nothing that was ever asked.
+    pub strays: u64,
     /// Positions that cannot be.
     pub implausible: u64,
     /// Answers missing at their deadline.
     pub timeouts: u64,
+    /// Reads by fast sync or bulk read.
+    pub fast_reads: u64,
+    /// Those of them that were not whole.
+    pub fast_failures: u64,
+    /// Pings sent because answers of every length were owed.
+    pub pings: u64,
     /// Damaged packets.
     pub rejected: u64,
     /// Our own instructions heard back.

@@ -1,18 +1,20 @@
-//! Asking every member for the same block, until each has answered or has certainly not.
+//! Asking members for blocks of their registers, until each has answered or has certainly not.
 //!
-//! One sync read first; whoever is missing then is asked alone, for in a sync read the servos behind an absent
-//! one may stay silent too. After each silence the line is given time, so that a late answer cannot be taken
-//! for the answer to the next question.
+//! Who can be asked together is asked together first; whoever is missing then is asked alone, for in a group read the
+//! servos behind an absent one may stay silent too. After each silence the line is given time, and nothing is asked
+//! for with a length that is still owed.
 
-use super::framing::{StatusError, dynamixel2};
+use super::block::{BLOCK_BYTES_MAX, Block};
+use super::bus::Bus;
+use super::framing::{self, StatusError};
 use super::line::{Answer, Line, Progress};
-use super::table::Block;
+use super::register::Field;
+use super::slot::Slot;
 use crate::clock::Instant;
 use crate::transport::TransportError;
+use device_profiles::ServoProtocol;
 use std::time::Duration;
 
-/// Longest block that is gathered: Goal Position to Present Position of the X series, and some.
-pub(super) const BLOCK_BYTES_MAX: usize = 32;
 /// How often a member is asked alone before it counts as absent.
 const ALONE_MAX: u8 = 3;
 
@@ -21,6 +23,10 @@ const ALONE_MAX: u8 = 3;
 pub(super) struct Gathered {
     bytes: [u8; BLOCK_BYTES_MAX],
     length: usize,
+    /// Whether the data are there; otherwise it is a refusal.
+    pub(super) whole: bool,
+    /// Where the bytes begin.
+    pub(super) address: u16,
     pub(super) error: StatusError,
     pub(super) sent: Instant,
     pub(super) turn: Duration,
@@ -34,43 +40,96 @@ impl Gathered {
     }
 }
 
-/// A question under way.
+/// One block of one member.
 #[derive(Debug, Clone)]
-pub(super) struct Gather {
+struct Question {
+    member: usize,
+    id: u8,
+    protocol: ServoProtocol,
+    /// Whether it may be asked in a sync read.
+    sync: bool,
     block: Block,
-    ids: Vec<u8>,
-    answers: Vec<Option<Gathered>>,
+    answer: Option<Gathered>,
     asked_together: bool,
-    asked_alone: Vec<u8>,
+    asked_alone: u8,
+}
+
+/// Questions under way.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Gather {
+    questions: Vec<Question>,
+    /// What is being asked: place in `questions`, where its read begins.
+    asking: Vec<(usize, u16)>,
     must_be_quiet: bool,
+    not_before: Instant,
 }
 
 impl Gather {
-    pub(super) fn new(block: Block, ids: Vec<u8>) -> Self {
-        let count = ids.len();
+    /// Blocks of each member; those without any are not asked.
+    pub(super) fn new(slots: &[Slot], blocks: impl Fn(&Slot) -> Vec<Block>) -> Self {
+        let mut questions = Vec::new();
+        for (member, slot) in slots.iter().enumerate() {
+            for block in blocks(slot) {
+                questions.push(Question {
+                    member,
+                    id: slot.member.id(),
+                    protocol: slot.table.protocol,
+                    sync: slot.member.servo().sync_read,
+                    block,
+                    answer: None,
+                    asked_together: false,
+                    asked_alone: 0,
+                });
+            }
+        }
         Self {
-            block,
-            ids,
-            answers: vec![None; count],
-            asked_together: false,
-            asked_alone: vec![0; count],
-            must_be_quiet: false,
+            questions,
+            ..Self::default()
         }
     }
 
-    /// Also waits for silence before the first question.
+    /// Waits for silence before the first question.
     pub(super) fn after_silence(mut self) -> Self {
         self.must_be_quiet = true;
         self
     }
 
-    pub(super) fn block(&self) -> Block {
-        self.block
+    /// Asks nothing before `at`, as while servos are deaf.
+    pub(super) fn not_before(mut self, at: Instant) -> Self {
+        self.not_before = at;
+        self
     }
 
-    /// In the order of the ids; none has not answered.
-    pub(super) fn answers(&self) -> &[Option<Gathered>] {
-        &self.answers
+    /// A member's answer that holds a row.
+    pub(super) fn holding(&self, member: usize, row: Field) -> Option<&Gathered> {
+        let mut of_member = self.questions.iter().filter(|question| question.member == member);
+        of_member
+            .find(|question| question.block.holds(row))?
+            .answer
+            .as_ref()
+            .filter(|answer| answer.whole)
+    }
+
+    /// A row's value as a member told it.
+    pub(super) fn value(&self, member: usize, row: Field) -> Option<i64> {
+        let answer = self.holding(member, row)?;
+        row.get(answer.bytes(), answer.address)
+    }
+
+    /// Members that have not answered every question, each once.
+    pub(super) fn missing(&self) -> Vec<usize> {
+        let open = self.questions.iter().filter(|question| question.answer.is_none());
+        let mut members: Vec<usize> = open.map(|question| question.member).collect();
+        members.dedup();
+        members
+    }
+
+    /// Members that refused a question, with what they said and the first byte they were asked for.
+    pub(super) fn refusals(&self) -> impl Iterator<Item = (usize, StatusError, u16)> + '_ {
+        self.questions.iter().filter_map(|question| {
+            let answer = question.answer.filter(|answer| !answer.whole)?;
+            Some((question.member, answer.error, question.block.address))
+        })
     }
 
     /// Goes on as far as possible without waiting; true when nothing is left to ask.
@@ -80,9 +139,11 @@ impl Gather {
         quiet: Duration,
         now: Instant,
     ) -> Result<bool, TransportError> {
-        let Self { ids, answers, .. } = self;
-        let progress = line.poll(now, &mut |answer| keep(ids, answers, &answer, now))?;
-        if progress == Progress::Waiting {
+        let Self {
+            questions, asking, ..
+        } = self;
+        let progress = line.poll(now, &mut |answer| keep(questions, asking, &answer, now))?;
+        if progress == Progress::Waiting || now < self.not_before {
             return Ok(false);
         }
         if progress == Progress::Done && line.missing().next().is_some() {
@@ -96,45 +157,110 @@ impl Gather {
     }
 
     fn ask(&mut self, line: &mut Line, now: Instant) -> Result<bool, TransportError> {
-        let Block { address, bytes } = self.block;
-        let out = line.packet();
-        // Packets of this size cannot be too long: at most 253 ids behind four bytes.
-        if !self.asked_together {
-            self.asked_together = true;
-            let _ = dynamixel2::sync_read(out, address, bytes, self.ids.iter().copied());
-            line.send(now, self.ids.iter().copied(), usize::from(bytes))?;
-            return Ok(self.ids.is_empty());
+        self.asking.clear();
+        if self.ask_together(line, now)? {
+            return Ok(false);
         }
-        let unanswered = self.answers.iter().zip(&mut self.asked_alone).zip(&self.ids);
-        let next = unanswered
-            .filter(|((answer, _), _)| answer.is_none())
-            .find(|((_, tries), _)| **tries < ALONE_MAX);
-        let Some(((_, tries), &id)) = next else {
-            return Ok(true);
-        };
-        *tries += 1;
-        let _ = dynamixel2::read(out, id, address, bytes);
-        line.send(now, [id], usize::from(bytes))?;
-        Ok(false)
+        loop {
+            let mut open = self.questions.iter_mut().enumerate();
+            let next =
+                open.find(|(_, question)| question.answer.is_none() && question.asked_alone < ALONE_MAX);
+            let Some((at, question)) = next else {
+                return Ok(true);
+            };
+            question.asked_alone += 1;
+            let block = question.block;
+            let id = question.id;
+            let Some(bytes) = line.owed().free_length(&std::iter::once(id), block.lengths()) else {
+                continue;
+            };
+            let address = block.address_for(bytes);
+            self.asking.push((at, address));
+            line.packet();
+            line.speak(question.protocol);
+            // An id and lengths of a member cannot be wrong.
+            let _ = framing::read(question.protocol, line.packet_so_far(), id, address, bytes);
+            line.send(now, [id], bytes.into())?;
+            return Ok(false);
+        }
+    }
+
+    /// Asks all at once who have not been and whose questions are alike. False: there is nobody.
+    fn ask_together(&mut self, line: &mut Line, now: Instant) -> Result<bool, TransportError> {
+        loop {
+            let fits =
+                |question: &Question| question.sync && !question.asked_together && question.answer.is_none();
+            let Some(first) = self.questions.iter().find(|question| fits(question)) else {
+                return Ok(false);
+            };
+            let (protocol, block) = (first.protocol, first.block);
+            let alike = |question: &Question| {
+                fits(question) && question.protocol == protocol && question.block == block
+            };
+            let chosen: Vec<usize> = (0..self.questions.len())
+                .filter(|at| self.questions.get(*at).is_some_and(alike))
+                .collect();
+            let questions = &self.questions;
+            let ids = || {
+                chosen
+                    .iter()
+                    .filter_map(|at| questions.get(*at))
+                    .map(|question| question.id)
+            };
+            let bytes = line.owed().free_length(&ids(), block.lengths());
+            if let Some(bytes) = bytes {
+                let address = block.address_for(bytes);
+                line.packet();
+                line.speak(protocol);
+                // Packets of this size cannot be too long: at most 253 ids behind four bytes.
+                let _ = framing::sync_read(protocol, line.packet_so_far(), address, bytes, ids());
+                line.send(now, ids(), bytes.into())?;
+                self.asking.extend(chosen.iter().map(|at| (*at, address)));
+            }
+            for at in &chosen {
+                if let Some(question) = self.questions.get_mut(*at) {
+                    question.asked_together = true;
+                }
+            }
+            if bytes.is_some() {
+                return Ok(true);
+            }
+        }
     }
 }
 
-fn keep(ids: &[u8], answers: &mut [Option<Gathered>], answer: &Answer<'_>, now: Instant) {
-    let at = ids.iter().position(|&id| id == answer.status.id);
-    if let Some(slot) = at.and_then(|at| answers.get_mut(at)) {
+fn keep(questions: &mut [Question], asking: &[(usize, u16)], answer: &Answer<'_>, now: Instant) {
+    for &(at, address) in asking {
+        let Some(question) = questions
+            .get_mut(at)
+            .filter(|question| question.id == answer.status.id)
+        else {
+            continue;
+        };
         let mut bytes = [0; BLOCK_BYTES_MAX];
         let length = answer.status.data.len().min(BLOCK_BYTES_MAX);
         for (to, from) in bytes.iter_mut().zip(answer.status.data) {
             *to = *from;
         }
-        *slot = Some(Gathered {
+        question.answer = Some(Gathered {
             bytes,
             length,
+            whole: answer.whole,
+            address,
             error: answer.status.error,
             sent: answer.sent,
             turn: answer.turn,
             measured: answer.measured,
             received: now,
         });
+    }
+}
+
+impl Bus {
+    /// Questions for rows of each member.
+    pub(super) fn gather(&self, rows: impl Fn(&Slot) -> Vec<Field>) -> Gather {
+        Gather::new(&self.slots, |slot| {
+            Block::covering(slot.member.servo(), &rows(slot))
+        })
     }
 }

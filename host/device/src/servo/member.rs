@@ -4,6 +4,8 @@
 
 use super::limit::{Limits, LimitsError};
 use super::register::{Field, RegisterError};
+use super::settings::Readings;
+use super::table::Table;
 use crate::clock::Instant;
 use device_profiles::{PuppetJoint, ServoProfile};
 use std::time::Duration;
@@ -71,38 +73,6 @@ pub struct Member {
     sign: f64,
     zero_counts: i32,
     limits: Limits,
-    fields: Fields,
-}
-
-/// The rows that the cycle needs, resolved once.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Fields {
-    pub(super) tick: Field,
-    pub(super) load: Field,
-    pub(super) load_is_current: bool,
-    pub(super) velocity: Field,
-    pub(super) position: Field,
-    pub(super) profile_velocity: Field,
-    pub(super) voltage: Field,
-    pub(super) temperature: Field,
-}
-
-impl Fields {
-    fn of(servo: &ServoProfile) -> Result<Self, RegisterError> {
-        // The same address holds "Present Load" on models that cannot measure current.
-        let current = Field::named(servo, "Present Current");
-        let load_is_current = current.is_ok();
-        Ok(Self {
-            tick: Field::named(servo, "Realtime Tick")?,
-            load: current.or_else(|_| Field::named(servo, "Present Load"))?,
-            load_is_current,
-            velocity: Field::named(servo, "Present Velocity")?,
-            position: Field::named(servo, "Present Position")?,
-            profile_velocity: Field::named(servo, "Profile Velocity")?,
-            voltage: Field::named(servo, "Present Input Voltage")?,
-            temperature: Field::named(servo, "Present Temperature")?,
-        })
-    }
 }
 
 impl Member {
@@ -124,12 +94,16 @@ impl Member {
         if id > super::framing::dynamixel2::ID_MAX {
             return Err(MemberError::Id { joint, id });
         }
-        let fields = match Fields::of(&servo) {
-            Ok(fields) => fields,
-            Err(source) => return Err(MemberError::Register { joint, source }),
+        if let Err(source) = Table::of(&servo, Readings::Motion) {
+            return Err(MemberError::Register { joint, source });
+        }
+        let limits = match servo
+            .move_velocity()
+            .map(|row| Field::of(&servo, row).unit_per_count)
+        {
+            Some(unit) => limits.slower((limits.velocity_max_rad_per_s() / unit).floor().max(1.0) * unit),
+            None => limits,
         };
-        let unit = fields.profile_velocity.unit_per_count;
-        let limits = limits.slower((limits.velocity_max_rad_per_s() / unit).floor().max(1.0) * unit);
         let member = Self {
             joint,
             id,
@@ -137,7 +111,6 @@ impl Member {
             sign: f64::from(sign),
             zero_counts,
             limits,
-            fields,
         };
         let [min_counts, max_counts] = member.range_counts();
         let [first_counts, last_counts] = member.servo.position_counts;
@@ -194,10 +167,6 @@ impl Member {
         self.limits
     }
 
-    pub(super) fn fields(&self) -> &Fields {
-        &self.fields
-    }
-
     /// The joint's angle at a count of Present Position.
     pub fn position_rad(&self, counts: i64) -> f64 {
         self.sign * (counts - i64::from(self.zero_counts)) as f64 * self.servo.rad_per_count()
@@ -219,33 +188,52 @@ impl Member {
         if self.sign > 0.0 { ends } else { [ends[1], ends[0]] }
     }
 
-    /// Profile Velocity for the speed limit, in counts; at least 1, for 0 means unlimited.
-    pub(super) fn profile_velocity_counts(&self) -> u32 {
-        let counts = self.limits.velocity_max_rad_per_s() / self.fields.profile_velocity.unit_per_count;
+    /// What the register for the speed of moves holds at the speed limit; at least 1, for 0 means unlimited.
+    pub(super) fn speed_counts(&self, speed: Field) -> i64 {
+        let counts = self.limits.velocity_max_rad_per_s() / speed.unit_per_count;
         // The limit is a whole number of counts already; the division may fall just short of it.
-        (counts + 1e-6).floor().clamp(1.0, 32_767.0) as u32
+        speed.raw((counts + 1e-6).floor().max(1.0) * speed.unit_per_count)
     }
 
-    /// What a block that starts at `address` says, or the raw position that cannot be one.
-    pub(super) fn reading(&self, block: &[u8], address: u16, at: Instant) -> Result<Reading, i64> {
-        let missing = i64::MIN;
-        let raw = self.fields.position.get(block, address).ok_or(missing)?;
+    /// What a block that starts at `start` and holds the rows of the status block says, or the raw position that
+    /// cannot be one. Where the servo does not tell its speed it follows from the reading `before`.
+    pub(super) fn reading(
+        &self,
+        table: &Table,
+        block: &[u8],
+        start: u16,
+        at: Instant,
+        before: Option<Reading>,
+    ) -> Result<Reading, i64> {
+        let raw = table.position.get(block, start).ok_or(i64::MIN)?;
         // A joint turned by hand may leave the turn a little; further than a turn is not a reading.
         let turn = self.servo.counts_per_turn.ceil() as i64;
         if raw <= -turn || raw >= 2 * turn {
             return Err(raw);
         }
-        let load = self.fields.load.get_si(block, address).ok_or(missing)?;
-        Ok(Reading {
-            position_counts: raw,
-            position_rad: self.position_rad(raw),
-            velocity_rad_per_s: self.sign * self.fields.velocity.get_si(block, address).ok_or(missing)?,
-            load: if self.fields.load_is_current {
+        let position_rad = self.position_rad(raw);
+        let si = |row: Option<Field>| table.in_status(row).and_then(|row| row.get_si(block, start));
+        let velocity_rad_per_s = match (si(table.velocity), before) {
+            (Some(velocity), _) => self.sign * velocity,
+            (None, Some(before)) if at > before.at => {
+                (position_rad - before.position_rad) / at.since(before.at).as_secs_f64()
+            }
+            (None, _) => 0.0,
+        };
+        let load = si(table.load).map(|load| {
+            if table.load_is_current {
                 Load::Amperes(self.sign * load)
             } else {
                 Load::Share(self.sign * load)
-            },
-            tick: self.fields.tick.get(block, address).ok_or(missing)? as u16,
+            }
+        });
+        let tick = table.in_status(table.tick).and_then(|row| row.get(block, start));
+        Ok(Reading {
+            position_counts: raw,
+            position_rad,
+            velocity_rad_per_s,
+            load,
+            tick: tick.map(|tick| tick as u16),
             at,
         })
     }
@@ -267,12 +255,12 @@ pub struct Reading {
     pub position_counts: i64,
     /// The joint's angle.
     pub position_rad: f64,
-    /// The joint's speed.
+    /// The joint's speed; where the servo does not tell it, by the last two positions.
     pub velocity_rad_per_s: f64,
-    /// Current or load.
-    pub load: Load,
-    /// The servo's own clock, milliseconds, wraps after 32767.
-    pub tick: u16,
+    /// Current or load, if it is read.
+    pub load: Option<Load>,
+    /// The servo's own clock, milliseconds, wraps after 32767; none where it has none.
+    pub tick: Option<u16>,
     /// When the servo measured, as well as the wire allows to tell.
     pub at: Instant,
 }
@@ -291,13 +279,14 @@ pub struct Supply {
     pub voltage_v: Option<f64>,
     /// Degrees Celsius in the servo; none until read.
     pub temperature_c: Option<f64>,
-    /// Hardware Error Status: bit 0 voltage, 2 overheating, 3 encoder, 4 electrical shock, 5 overload.
+    /// What is wrong with the servo, whatever its family's own bits: bit 0 voltage, 2 overheating, 3 encoder,
+    /// 4 electrical shock, 5 overload, 6 current.
     pub error_bits: u8,
     /// Torque Enable as last read.
     pub torque: Option<bool>,
 }
 
-/// The names of the bits of Hardware Error Status, for messages.
+/// The names of the bits of [`Supply::error_bits`], for messages.
 pub fn error_names(bits: u8) -> String {
     let names = [
         (0, "input voltage"),
@@ -305,6 +294,7 @@ pub fn error_names(bits: u8) -> String {
         (3, "encoder"),
         (4, "electrical shock"),
         (5, "overload"),
+        (6, "current"),
     ];
     let found: Vec<&str> = names
         .iter()

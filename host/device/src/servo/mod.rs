@@ -17,16 +17,24 @@ pub mod member;
 pub mod register;
 
 mod arming;
+mod ask;
+mod block;
 mod blocking;
+mod company;
 mod cycle;
 mod event;
+mod fast;
 mod gather;
 mod health;
 mod line;
+mod owed;
 mod release;
 mod settings;
 mod slot;
 mod table;
+mod tempo;
+mod turns;
+mod writes;
 
 pub use arming::{Refusal, Why};
 pub use bus::{Bus, BusError};
@@ -34,4 +42,4 @@ pub use event::{Armed, BusCounters, BusEvent, Commanded, Goal, Intervention, Pre
 pub use limit::{Change, Limits, LimitsError};
 pub use maintenance::{Found, Heard, Maintenance, MaintenanceError};
 pub use member::{Load, Member, MemberError, Reading, Supply};
-pub use settings::BusSettings;
+pub use settings::{BusSettings, Readings};

@@ -3,7 +3,6 @@
 use super::arming::Why;
 use super::bus::{Bus, BusError, Mode};
 use super::event::BusEvent;
-use super::framing::dynamixel2;
 use super::gather::Gather;
 use crate::clock::Instant;
 
@@ -27,19 +26,17 @@ impl Bus {
             slot.pin = None;
         }
         self.cycle.restart(now);
-        let gather = Gather::new(self.table.torque_block, self.ids());
+        let gather = self.gather(|slot| vec![slot.table.torque]);
         self.mode = Mode::Releasing(Releasing { written: 1, gather });
         self.write_torque_off(now)
     }
 
     fn write_torque_off(&mut self, now: Instant) -> Result<(), BusError> {
-        let [torque, watchdog] = [self.table.torque.address, self.table.watchdog.address];
-        let out = self.line.packet();
-        let ids = || self.slots.iter().map(|slot| (slot.member.id(), [0]));
-        let _ = dynamixel2::sync_write(out, torque, ids());
+        self.line.packet();
+        self.append_writes(&|slot| Some((slot.table.torque, 0)));
         // Twice: the first may have collided with an answer that was still on the wire.
-        let _ = dynamixel2::sync_write(out, torque, ids());
-        let _ = dynamixel2::sync_write(out, watchdog, ids());
+        self.append_writes(&|slot| Some((slot.table.torque, 0)));
+        self.append_writes(&|slot| Some((slot.table.watchdog?, 0)));
         self.send_unanswered(now)
     }
 
@@ -57,19 +54,16 @@ impl Bus {
             return Ok(());
         }
         let releasing = releasing.clone();
-        let address = releasing.gather.block().address;
         let mut on = Vec::new();
-        for (at, answer) in releasing.gather.answers().iter().enumerate() {
-            let torque = answer.and_then(|answer| self.table.torque.get(answer.bytes(), address));
-            if let Some(slot) = self.slots.get_mut(at) {
-                slot.supply.torque = torque.map(|torque| torque != 0);
-            }
+        for (at, slot) in self.slots.iter_mut().enumerate() {
+            let torque = releasing.gather.value(at, slot.table.torque);
+            slot.supply.torque = torque.map(|torque| torque != 0);
             if torque.is_some_and(|torque| torque != 0) {
                 on.push((at, Why::StillOn));
             }
         }
         if !on.is_empty() && releasing.written < RELEASE_TRIES {
-            let gather = Gather::new(self.table.torque_block, self.ids());
+            let gather = self.gather(|slot| vec![slot.table.torque]);
             self.mode = Mode::Releasing(Releasing {
                 written: releasing.written + 1,
                 gather,

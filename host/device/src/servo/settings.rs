@@ -9,15 +9,33 @@ const WATCHDOG_COUNTS_MAX: u128 = 127;
 /// One count of Return Delay Time (e-manual).
 const RETURN_DELAY_STEP: Duration = Duration::from_micros(2);
 
-/// How a bus is run. The defaults suit a USB adapter whose latency timer is at 1 to 4 ms.
+/// What is read from every servo each cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Readings {
+    /// Present position alone: the shortest cycle there is.
+    Position,
+    /// Also speed and load, the servo's clock where it has one, and supply and temperature where they lie next to
+    /// these: 16 bytes on the X series, 8 on STS and AX.
+    Motion,
+}
+
+/// How a bus is run. The defaults suit any adapter, and a computer that has other things to do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BusSettings {
     /// What the puppet calls the bus; for messages.
     pub name: String,
     /// Line speed.
     pub baud: u32,
-    /// How long after the wire's own time an answer may come before the servo counts as silent.
+    /// What is read each cycle.
+    pub readings: Readings,
+    /// How long after the wire's own time an answer may come before the servo counts as silent, at most and until
+    /// the line has shown how punctual it is.
     pub answer_slack: Duration,
+    /// How long around the time at which answers are due a thread that waits for them stays awake, instead of being
+    /// woken by them: makes cycles shorter by what waking up takes, and costs that much of a processor.
+    pub alert: Duration,
+    /// Whether fast sync read is used where every servo asked has it.
+    pub fast_reads: bool,
     /// After so long without packets servos stop by themselves; 20 ms to 2540 ms.
     pub watchdog: Duration,
     /// Return Delay Time in steps of 2 us; 0 is fastest, some chains need 1.
@@ -38,7 +56,11 @@ impl BusSettings {
         Self {
             name: name.to_owned(),
             baud,
-            answer_slack: Duration::from_millis(8),
+            readings: Readings::Motion,
+            // The usual latency timer of 16 ms, and some.
+            answer_slack: Duration::from_millis(20),
+            alert: Duration::ZERO,
+            fast_reads: true,
             watchdog: Duration::from_millis(200),
             return_delay_counts: 0,
             quiet: Duration::from_millis(40),

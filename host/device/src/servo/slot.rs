@@ -1,19 +1,29 @@
 //! A member of a bus and all that is known about it at the moment.
 
+use super::block::Block;
 use super::event::Presence;
 use super::freshness::{Freshness, Verdict};
 use super::gather::Gathered;
+use super::health::Item;
 use super::limit::Limiter;
 use super::member::{Member, Reading, Supply};
+use super::table::Table;
 
 /// A member and all that is known about it.
 #[derive(Debug)]
 pub(super) struct Slot {
     pub(super) member: Member,
+    pub(super) table: Table,
+    /// What is read for each health item, in the order of [`Item::ALL`].
+    health: [Option<Block>; Item::ALL.len()],
+    /// Firmware Version; none until read.
+    pub(super) firmware: Option<u8>,
     pub(super) reading: Option<Reading>,
     pub(super) supply: Supply,
     pub(super) presence: Presence,
     pub(super) misses: u32,
+    /// Cycle at which an absent servo is tried again.
+    pub(super) probe_at: u64,
     pub(super) freshness: Freshness,
     /// Answers in a row that were taken for late.
     pub(super) late_in_a_row: u8,
@@ -22,46 +32,58 @@ pub(super) struct Slot {
     pub(super) pin: Option<Reading>,
     /// The goal that the servo holds after arming: where the limiter starts.
     pub(super) held_rad: Option<f64>,
-    /// Min and Max Position Limit; none until read.
+    /// Smallest and largest goal position; none until read.
     pub(super) accepts: Option<[i64; 2]>,
 }
 
 impl Slot {
-    pub(super) fn new(member: Member) -> Self {
-        Self {
+    pub(super) fn new(member: Member, table: &Table) -> Self {
+        let mut slot = Self {
             member,
+            table: *table,
+            health: [None; Item::ALL.len()],
+            firmware: None,
             reading: None,
             supply: Supply::default(),
             presence: Presence::Present,
             misses: 0,
+            probe_at: 0,
             freshness: Freshness::default(),
             late_in_a_row: 0,
             limiter: None,
             pin: None,
             held_rad: None,
             accepts: None,
-        }
+        };
+        slot.health = Item::ALL.map(|item| item.block(&slot));
+        slot
     }
 
+    /// What is read for a health item; none where there is nothing to read.
+    pub(super) fn health_block(&self, item: Item) -> Option<Block> {
+        let at = Item::ALL.iter().position(|other| *other == item)?;
+        *self.health.get(at)?
+    }
+
+    /// Voltage and temperature, as far as the block that starts at `address` holds them.
     pub(super) fn take_supply(&mut self, block: &[u8], address: u16) {
-        let fields = self.member.fields();
-        self.supply.voltage_v = fields.voltage.get_si(block, address).or(self.supply.voltage_v);
-        self.supply.temperature_c = fields
-            .temperature
-            .get_si(block, address)
-            .or(self.supply.temperature_c);
+        let si = |row: Option<super::register::Field>| row.and_then(|row| row.get_si(block, address));
+        self.supply.voltage_v = si(self.table.voltage).or(self.supply.voltage_v);
+        self.supply.temperature_c = si(self.table.temperature).or(self.supply.temperature_c);
     }
 
     /// The reading in a gathered block, if it was measured after it was asked for.
-    pub(super) fn fresh_reading(&mut self, answer: &Gathered, address: u16) -> Option<Reading> {
+    pub(super) fn fresh_reading(&mut self, answer: &Gathered) -> Option<Reading> {
+        let (bytes, start) = (answer.bytes(), answer.address);
         let reading = self
             .member
-            .reading(answer.bytes(), address, answer.measured)
+            .reading(&self.table, bytes, start, answer.measured, self.reading)
             .ok()?;
-        match self
-            .freshness
-            .judge(reading.tick, answer.sent, answer.turn, answer.received)
-        {
+        let verdict = reading.tick.map_or(Verdict::Fresh, |tick| {
+            self.freshness
+                .judge(tick, answer.sent, answer.turn, answer.received)
+        });
+        match verdict {
             Verdict::Fresh => {
                 self.reading = Some(reading);
                 self.presence = Presence::Present;

@@ -15,58 +15,79 @@ pub struct Awaited<'a> {
     pub transport: &'a mut dyn Transport,
     /// Before this there is nothing on it that would be worth waking up for.
     pub from: Instant,
+    /// Until then the thread stays awake and looks again and again: being woken by bytes takes longer.
+    pub alert_until: Instant,
 }
 
 impl std::fmt::Debug for Awaited<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Awaited")
             .field("from", &self.from)
+            .field("alert_until", &self.alert_until)
             .finish_non_exhaustive()
     }
 }
 
-/// Returns at `until`, or earlier when bytes are known to be on one of `lines` (or its far end to be gone).
-/// Lines beyond [`LINES_MAX`] are not watched; they are looked at whenever this returns.
-pub fn wait_any(lines: &mut [Awaited<'_>], clock: &dyn Clock, until: Instant) {
-    if let [only] = lines {
-        clock.sleep_until(only.from.min(until));
-        only.transport.wait(clock, until);
-        return;
-    }
-    loop {
-        let now = clock.now();
-        let due = |line: &Awaited<'_>| line.from <= now;
-        let inside = |line: &mut Awaited<'_>| due(line) && line.transport.descriptor().is_none();
-        if now >= until
-            || lines
-                .iter_mut()
-                .any(|line| inside(line) && line.transport.ready())
+/// Returns at `until`, or earlier when bytes are known to be on one of `lines` (or its far end to be gone), but not
+/// before they are worth it. Lines beyond [`LINES_MAX`] are not watched.
+pub fn wait_any(lines: &mut [Option<Awaited<'_>>], clock: &dyn Clock, until: Instant) {
+    let mut now = clock.now();
+    while now < until {
+        let due = |line: &&mut Awaited<'_>| line.from <= now;
+        if lines
+            .iter_mut()
+            .flatten()
+            .filter(due)
+            .any(|line| line.transport.ready())
         {
             return;
         }
-        let next = lines
-            .iter()
-            .map(|line| line.from)
+        let froms = lines.iter().flatten().map(|line| line.from);
+        let end = froms
             .filter(|from| *from > now)
-            .min();
-        let mut end = next.map_or(until, |next| next.min(until));
-        if lines.iter_mut().any(inside) {
-            end = end.min(now.after(WAIT_STEP));
-        }
-        if poll_due(lines, clock, end) {
-            return;
+            .min()
+            .map_or(until, |next| next.min(until));
+        let alert = lines
+            .iter()
+            .flatten()
+            .any(|line| line.from <= now && now < line.alert_until);
+        let before = std::mem::replace(&mut now, clock.now());
+        // A clock that others move does not go on by being looked at.
+        if !(alert && now > before) {
+            sleep_or_wake(lines, clock, end);
+            now = clock.now();
         }
     }
 }
 
-/// One `poll(2)` for the lines that are due and have a descriptor.
-fn poll_due(lines: &[Awaited<'_>], clock: &dyn Clock, end: Instant) -> bool {
+/// Sleeps until `end`, or until bytes come on a line that is due.
+fn sleep_or_wake(lines: &mut [Option<Awaited<'_>>], clock: &dyn Clock, end: Instant) {
     let now = clock.now();
-    let due = lines.iter().filter(|line| line.from <= now);
+    let is_due = |line: &Awaited<'_>| line.from <= now;
+    if let [Some(only)] = lines
+        && is_due(only)
+    {
+        // It may know better when its bytes come.
+        only.transport.wait(clock, end);
+        return;
+    }
+    let inside = |line: &Awaited<'_>| is_due(line) && line.transport.descriptor().is_none();
+    let step = lines.iter().flatten().any(inside);
+    poll_due(
+        lines,
+        clock,
+        if step { end.min(now.after(WAIT_STEP)) } else { end },
+    );
+}
+
+/// One `poll(2)` for the lines that are due and have a descriptor.
+fn poll_due(lines: &[Option<Awaited<'_>>], clock: &dyn Clock, end: Instant) {
+    let now = clock.now();
+    let due = lines.iter().flatten().filter(|line| line.from <= now);
     let mut descriptors = due.filter_map(|line| line.transport.descriptor());
     let Some(first) = descriptors.next() else {
         clock.sleep_until(end);
-        return false;
+        return;
     };
     let mut watched: [PollFd<'_>; LINES_MAX] =
         std::array::from_fn(|_| PollFd::from_borrowed_fd(first, PollFlags::IN));
@@ -75,12 +96,10 @@ fn poll_due(lines: &[Awaited<'_>], clock: &dyn Clock, end: Instant) -> bool {
         *place = PollFd::from_borrowed_fd(descriptor, PollFlags::IN);
         count += 1;
     }
-    let ready = descriptor::poll_all(watched.get_mut(..count).unwrap_or_default(), end.since(now));
-    if !ready {
+    if !descriptor::poll_all(watched.get_mut(..count).unwrap_or_default(), end.since(now)) {
         // For a real clock the time has passed; a virtual one learns it here.
         clock.sleep_until(end);
     }
-    ready
 }
 
 #[cfg(test)]
@@ -91,7 +110,11 @@ mod tests {
     use std::time::Duration;
 
     fn awaited(transport: &mut dyn Transport, from: Instant) -> Awaited<'_> {
-        Awaited { transport, from }
+        Awaited {
+            transport,
+            from,
+            alert_until: from,
+        }
     }
 
     #[test]
@@ -105,7 +128,10 @@ mod tests {
         let until = clock.now().after(Duration::from_secs(5));
         let [first, second] = &mut near;
         wait_any(
-            &mut [awaited(first, Instant::ZERO), awaited(second, Instant::ZERO)],
+            &mut [
+                Some(awaited(first, Instant::ZERO)),
+                Some(awaited(second, Instant::ZERO)),
+            ],
             &clock,
             until,
         );
@@ -122,7 +148,10 @@ mod tests {
         far.write(&[1]).expect("room");
         let later = Instant::from_nanos(3_000_000);
         wait_any(
-            &mut [awaited(&mut first, later), awaited(&mut second, Instant::ZERO)],
+            &mut [
+                Some(awaited(&mut first, later)),
+                Some(awaited(&mut second, Instant::ZERO)),
+            ],
             &clock,
             Instant::from_nanos(9_000_000),
         );
@@ -140,8 +169,8 @@ mod tests {
         let until = Instant::from_nanos(1_234_567);
         wait_any(
             &mut [
-                awaited(&mut first, Instant::ZERO),
-                awaited(&mut second, Instant::ZERO),
+                Some(awaited(&mut first, Instant::ZERO)),
+                Some(awaited(&mut second, Instant::ZERO)),
             ],
             &clock,
             until,

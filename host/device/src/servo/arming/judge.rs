@@ -3,9 +3,9 @@
 use super::writes::WRITE_TRIES;
 use super::{Arming, Next, Stage, Why};
 use crate::servo::bus::Bus;
-use crate::servo::gather::Gathered;
-use crate::servo::register::Field;
-use crate::servo::table::Block;
+use crate::servo::gather::Gather;
+use crate::servo::health::{faults, reported};
+use device_profiles::{Role, ServoProtocol};
 
 /// A joint that moved further than this between two looks is being moved by somebody.
 const RESTLESS_RAD: f64 = 0.05;
@@ -13,97 +13,92 @@ const RESTLESS_RAD: f64 = 0.05;
 /// silence: together half a second, in which a servo that its own watchdog has just stopped comes to rest.
 const MEASURE_TRIES: u8 = 12;
 
+type Found = Vec<(usize, Why)>;
+
 impl Bus {
     /// The servos' answers to this stage, or everybody who refuses.
     pub(super) fn judge(&mut self, arming: &Arming) -> Next {
-        let block = arming.gather.block();
-        let mut refused = Vec::new();
-        let mut answers = Vec::new();
-        for (at, answer) in arming.gather.answers().iter().enumerate() {
-            match answer {
-                None => refused.push((at, Why::Missing)),
-                Some(answer) if answer.error.number() != 0 => {
-                    refused.push((
-                        at,
-                        Why::Answer {
-                            error: answer.error,
-                            address: block.address,
-                        },
-                    ));
-                }
-                Some(answer) => answers.push((at, *answer)),
-            }
-        }
-        if !refused.is_empty() {
-            return Next::Refuse(refused);
+        let gather = &arming.gather;
+        let missing = gather.missing().into_iter().map(|at| (at, Why::Missing));
+        let refused = gather
+            .refusals()
+            .map(|(at, error, address)| (at, Why::Answer { error, address }));
+        let silent: Found = missing.chain(refused).collect();
+        if !silent.is_empty() {
+            return Next::Refuse(silent);
         }
         match arming.stage {
-            Stage::Identity => check(self.judge_identity(&answers, block), Stage::Errors),
-            Stage::Errors => check(self.judge_errors(&answers, block), Stage::Supply),
-            Stage::Supply => check(self.judge_supply(&answers, block), Stage::Settings { written: 0 }),
-            Stage::Settings { written } => self.judge_settings(&answers, block, written),
-            Stage::Range => check(self.judge_range(&answers, block), Stage::Profile { written: 0 }),
-            Stage::Profile { written } => self.judge_profile(&answers, block, written),
-            Stage::Measure { tries } => self.judge_measure(&answers, block, tries),
-            Stage::Pin { tries } => self.judge_pin(&answers, block, tries),
-            Stage::Torque { written } => self.judge_torque(&answers, block, written),
-            Stage::Held { tries } => self.judge_held(&answers, block, tries),
+            Stage::Identity => check(self.judge_identity(gather), Stage::Errors),
+            Stage::Errors => check(self.judge_errors(gather), Stage::Supply),
+            Stage::Supply => check(self.judge_supply(gather), Stage::Settings { written: 0 }),
+            Stage::Settings { written } => self.judge_settings(gather, written),
+            Stage::Range => check(self.judge_range(gather), Stage::Profile { written: 0 }),
+            Stage::Profile { written } => self.judge_profile(gather, written),
+            Stage::Measure { tries } => self.judge_measure(gather, tries),
+            Stage::Pin { tries } => self.judge_pin(gather, tries),
+            Stage::Torque { written } => self.judge_torque(gather, written),
+            Stage::Held { tries } => self.judge_held(gather, tries),
         }
     }
 
-    fn judge_identity(&self, answers: &[(usize, Gathered)], block: Block) -> Vec<(usize, Why)> {
+    fn judge_identity(&mut self, gather: &Gather) -> Found {
         let mut refused = Vec::new();
-        for (at, answer) in answers {
-            let Some(slot) = self.slots.get(*at) else { continue };
+        for (at, slot) in self.slots.iter_mut().enumerate() {
             let servo = slot.member.servo();
-            let found = value(self.table.model, answer, block);
+            let found = slot.table.model.and_then(|row| gather.value(at, row));
             let expected = i64::from(servo.model_number);
-            let firmware = value(self.table.firmware, answer, block);
-            if found != expected {
-                refused.push((*at, Why::Model { expected, found }));
-            } else if servo
-                .bus_watchdog_from_firmware
-                .is_none_or(|needed| firmware < i64::from(needed))
-            {
-                let needed = servo.bus_watchdog_from_firmware.unwrap_or(u8::MAX);
-                refused.push((
-                    *at,
-                    Why::Firmware {
-                        needed,
-                        found: firmware,
-                    },
-                ));
+            let firmware = slot.table.firmware.and_then(|row| gather.value(at, row));
+            slot.firmware = firmware.map(|firmware| firmware as u8);
+            let needed = servo.bus_watchdog_from_firmware.unwrap_or(0);
+            if let Some(found) = found.filter(|found| *found != expected) {
+                refused.push((at, Why::Model { expected, found }));
+            } else if let Some(found) = firmware.filter(|own| *own < i64::from(needed)) {
+                refused.push((at, Why::Firmware { needed, found }));
             }
+        }
+        for company in &mut self.companies {
+            company.fast.possible = self.settings.fast_reads && company.can_be_fast(&self.slots);
         }
         refused
     }
 
-    fn judge_errors(&mut self, answers: &[(usize, Gathered)], block: Block) -> Vec<(usize, Why)> {
+    fn judge_errors(&mut self, gather: &Gather) -> Found {
         let mut refused = Vec::new();
-        for (at, answer) in answers {
-            let bits = value(self.table.error, answer, block) as u8;
-            if let Some(slot) = self.slots.get_mut(*at) {
-                slot.supply.error_bits = bits;
-            }
+        for (at, slot) in self.slots.iter_mut().enumerate() {
+            let raw = slot
+                .table
+                .error
+                .and_then(|row| gather.value(at, row))
+                .unwrap_or(0);
+            let bits = faults(slot.member.servo(), raw as u8);
+            slot.supply.error_bits = bits;
             if bits != 0 {
-                refused.push((*at, Why::HardwareError { bits }));
+                refused.push((at, Why::HardwareError { bits }));
             }
         }
         refused
     }
 
-    fn judge_supply(&mut self, answers: &[(usize, Gathered)], block: Block) -> Vec<(usize, Why)> {
+    fn judge_supply(&mut self, gather: &Gather) -> Found {
         let limit_c = self.settings.hot_c;
         let mut refused = Vec::new();
-        for (at, answer) in answers {
-            let Some(slot) = self.slots.get_mut(*at) else {
-                continue;
-            };
-            slot.take_supply(answer.bytes(), block.address);
+        for (at, slot) in self.slots.iter_mut().enumerate() {
+            for row in [slot.table.voltage, slot.table.temperature].into_iter().flatten() {
+                if let Some(answer) = gather.holding(at, row) {
+                    slot.take_supply(answer.bytes(), answer.address);
+                    // Where no register tells, the answers do.
+                    let bits = reported(slot.member.servo(), answer.error).unwrap_or(0);
+                    if slot.table.error.is_none() && bits != 0 {
+                        slot.supply.error_bits = bits;
+                        refused.push((at, Why::HardwareError { bits }));
+                        break;
+                    }
+                }
+            }
             match slot.supply.temperature_c {
                 Some(temperature_c) if temperature_c >= limit_c => {
                     refused.push((
-                        *at,
+                        at,
                         Why::Hot {
                             temperature_c,
                             limit_c,
@@ -116,15 +111,14 @@ impl Bus {
         refused
     }
 
-    fn judge_settings(&mut self, answers: &[(usize, Gathered)], block: Block, written: u8) -> Next {
+    fn judge_settings(&mut self, gather: &Gather, written: u8) -> Next {
         let mut different = Vec::new();
-        for (register, field, wanted) in self.wanted_settings() {
-            for (at, answer) in answers {
-                let found = value(field, answer, block);
-                if found != i64::from(wanted) {
-                    let wanted = i64::from(wanted);
+        for (at, slot) in self.slots.iter().enumerate() {
+            for setting in self.wanted_settings(slot) {
+                let (register, wanted) = (setting.role, setting.wanted);
+                if let Some(found) = gather.value(at, setting.row).filter(|found| *found != wanted) {
                     different.push((
-                        *at,
+                        at,
                         Why::Setting {
                             register,
                             wanted,
@@ -135,8 +129,11 @@ impl Bus {
             }
         }
         if different.is_empty() {
-            let delay = self.settings.return_delay();
-            self.line.set_return_delay(delay);
+            // Servos without the register have their own delay, which nobody knows.
+            if self.slots.iter().all(|slot| slot.table.return_delay.is_some()) {
+                let delay = self.settings.return_delay();
+                self.line.set_return_delay(delay);
+            }
             Next::Stage(Stage::Range)
         } else if written >= WRITE_TRIES {
             Next::Refuse(different)
@@ -145,19 +142,25 @@ impl Bus {
         }
     }
 
-    fn judge_range(&mut self, answers: &[(usize, Gathered)], block: Block) -> Vec<(usize, Why)> {
+    fn judge_range(&mut self, gather: &Gather) -> Found {
         let mut refused = Vec::new();
-        for (at, answer) in answers {
-            let Some(slot) = self.slots.get_mut(*at) else {
+        for (at, slot) in self.slots.iter_mut().enumerate() {
+            let value = |row: Option<_>| row.and_then(|row| gather.value(at, row));
+            let (Some(found_min), Some(found_max)) =
+                (value(slot.table.position_min), value(slot.table.position_max))
+            else {
                 continue;
             };
-            let found_min = value(self.table.position_min, answer, block);
-            let found_max = value(self.table.position_max, answer, block);
+            let feetech = matches!(slot.table.protocol, ServoProtocol::Sts | ServoProtocol::Scs);
+            if feetech && found_min == 0 && found_max == 0 {
+                // Both zero: no limits (users' tables).
+                continue;
+            }
             let [needed_min, needed_max] = slot.member.range_counts();
             slot.accepts = Some([found_min, found_max]);
             if needed_min < found_min || needed_max > found_max {
                 refused.push((
-                    *at,
+                    at,
                     Why::Range {
                         found_min,
                         found_max,
@@ -170,17 +173,17 @@ impl Bus {
         refused
     }
 
-    fn judge_profile(&self, answers: &[(usize, Gathered)], block: Block, written: u8) -> Next {
+    fn judge_profile(&self, gather: &Gather, written: u8) -> Next {
         let mut different = Vec::new();
-        for (at, answer) in answers {
-            let Some(slot) = self.slots.get(*at) else { continue };
-            let wanted = i64::from(slot.member.profile_velocity_counts());
-            let found = value(self.table.profile_velocity, answer, block);
-            if found != wanted {
+        for (at, slot) in self.slots.iter().enumerate() {
+            let Some(speed) = slot.table.speed else { continue };
+            let wanted = slot.member.speed_counts(speed);
+            if let Some(found) = gather.value(at, speed).filter(|found| *found != wanted) {
+                let register = Role::ProfileVelocity;
                 different.push((
-                    *at,
+                    at,
                     Why::Setting {
-                        register: "Profile Velocity",
+                        register,
                         wanted,
                         found,
                     },
@@ -194,21 +197,19 @@ impl Bus {
         }
     }
 
-    fn judge_measure(&mut self, answers: &[(usize, Gathered)], block: Block, tries: u8) -> Next {
+    fn judge_measure(&mut self, gather: &Gather, tries: u8) -> Next {
         let mut refused = Vec::new();
         let mut late = Vec::new();
-        for (at, answer) in answers {
-            let Some(slot) = self.slots.get_mut(*at) else {
-                continue;
-            };
-            let Some(reading) = slot.fresh_reading(answer, block.address) else {
-                late.push((*at, Why::Late));
+        for (at, slot) in self.slots.iter_mut().enumerate() {
+            let answer = gather.holding(at, slot.table.position);
+            let Some(reading) = answer.and_then(|answer| slot.fresh_reading(answer)) else {
+                late.push((at, Why::Late));
                 continue;
             };
             let [min, max] = slot.accepts.unwrap_or(slot.member.servo().position_counts);
             let counts = reading.position_counts;
             if counts < min || counts > max {
-                refused.push((*at, Why::Outside { counts, min, max }));
+                refused.push((at, Why::Outside { counts, min, max }));
             }
             slot.pin = Some(reading);
         }
@@ -223,27 +224,25 @@ impl Bus {
         }
     }
 
-    fn judge_pin(&mut self, answers: &[(usize, Gathered)], block: Block, tries: u8) -> Next {
+    fn judge_pin(&mut self, gather: &Gather, tries: u8) -> Next {
         let mut unpinned = Vec::new();
-        for (at, answer) in answers {
-            let Some(slot) = self.slots.get_mut(*at) else {
+        for (at, slot) in self.slots.iter_mut().enumerate() {
+            let goal = gather.value(at, slot.table.goal);
+            let answer = gather.holding(at, slot.table.position);
+            let reading = answer.and_then(|answer| slot.fresh_reading(answer));
+            let (Some(pin), Some(reading), Some(found)) = (slot.pin, reading, goal) else {
+                unpinned.push((at, Why::Late));
                 continue;
             };
-            let found = value(self.table.goal, answer, block);
             let goal_rad = slot.member.position_rad(found);
-            let reading = slot.fresh_reading(answer, block.address);
-            let Some((pin, reading)) = slot.pin.zip(reading) else {
-                unpinned.push((*at, Why::Late));
-                continue;
-            };
             // Some firmware lets the goal follow the horn while torque is off, so the goal must be where the
             // horn is, not to the count what was written.
             if (reading.position_rad - pin.position_rad).abs() > RESTLESS_RAD {
-                unpinned.push((*at, Why::Restless));
+                unpinned.push((at, Why::Restless));
             } else if (reading.position_rad - goal_rad).abs() > RESTLESS_RAD {
-                let (register, wanted) = ("Goal Position", pin.position_counts);
+                let (register, wanted) = (Role::GoalPosition, pin.position_counts);
                 unpinned.push((
-                    *at,
+                    at,
                     Why::Setting {
                         register,
                         wanted,
@@ -261,18 +260,17 @@ impl Bus {
         }
     }
 
-    fn judge_torque(&mut self, answers: &[(usize, Gathered)], block: Block, written: u8) -> Next {
+    fn judge_torque(&mut self, gather: &Gather, written: u8) -> Next {
         let mut off = Vec::new();
-        for (at, answer) in answers {
-            let found = value(self.table.torque, answer, block);
-            if let Some(slot) = self.slots.get_mut(*at) {
-                slot.supply.torque = Some(found == 1);
-            }
+        for (at, slot) in self.slots.iter_mut().enumerate() {
+            let found = gather.value(at, slot.table.torque).unwrap_or_default();
+            slot.supply.torque = Some(found == 1);
             if found != 1 {
+                let register = Role::TorqueEnable;
                 off.push((
-                    *at,
+                    at,
                     Why::Setting {
-                        register: "Torque Enable",
+                        register,
                         wanted: 1,
                         found,
                     },
@@ -289,20 +287,21 @@ impl Bus {
     }
 
     /// With torque on each goal must be where the joint is; it is where the limiter starts.
-    fn judge_held(&mut self, answers: &[(usize, Gathered)], block: Block, tries: u8) -> Next {
+    fn judge_held(&mut self, gather: &Gather, tries: u8) -> Next {
         let mut away = Vec::new();
-        for (at, answer) in answers {
-            let Some(slot) = self.slots.get_mut(*at) else {
+        for (at, slot) in self.slots.iter_mut().enumerate() {
+            let goal = gather.value(at, slot.table.goal);
+            let answer = gather.holding(at, slot.table.position);
+            let reading = answer.and_then(|answer| slot.fresh_reading(answer));
+            let (Some(goal), Some(reading)) = (goal, reading) else {
+                away.push((at, Why::Late));
                 continue;
             };
-            let goal_rad = slot.member.position_rad(value(self.table.goal, answer, block));
-            let reading = slot.fresh_reading(answer, block.address);
-            match reading {
-                None => away.push((*at, Why::Late)),
-                Some(reading) if (reading.position_rad - goal_rad).abs() > 2.0 * RESTLESS_RAD => {
-                    away.push((*at, Why::Restless));
-                }
-                Some(_) => slot.held_rad = Some(goal_rad),
+            let goal_rad = slot.member.position_rad(goal);
+            if (reading.position_rad - goal_rad).abs() > 2.0 * RESTLESS_RAD {
+                away.push((at, Why::Restless));
+            } else {
+                slot.held_rad = Some(goal_rad);
             }
         }
         if away.is_empty() {
@@ -315,15 +314,10 @@ impl Bus {
     }
 }
 
-fn check(refused: Vec<(usize, Why)>, next: Stage) -> Next {
+fn check(refused: Found, next: Stage) -> Next {
     if refused.is_empty() {
         Next::Stage(next)
     } else {
         Next::Refuse(refused)
     }
-}
-
-/// A field of an answer that has the block's length; the line hands out no other.
-pub(super) fn value(field: Field, answer: &Gathered, block: Block) -> i64 {
-    field.get(answer.bytes(), block.address).unwrap_or_default()
 }

@@ -2,13 +2,14 @@
 //!
 //! The order is the point: everything is read before anything is written, settings are changed only where they
 //! differ and only with torque off, the goal is set to the measured position and read back before torque goes
-//! on, and read back once more with torque on, which is where the limiters start. The Bus Watchdog is armed with
-//! torque, so that servos stop by themselves when the host is gone.
+//! on, and read back once more with torque on, which is where the limiters start. Where a servo has a Bus Watchdog it
+//! is armed with torque, so that it stops by itself when the host is gone; where it has none nothing can promise
+//! that, and [`Bus::unwatched`] says which those are.
 //! Sync writes are unanswered, so each write is proved by reading back; that also keeps a late answer from
 //! being taken for an acknowledgement.
 //!
 //! Source: e-manual, "Control Table of EEPROM Area" (locked while torque is on), "Bus Watchdog (98)"; users'
-//! reports of first-frame lunges, `docs/protocols/dynamixel2.md`.
+//! reports of first-frame lunges, `docs/protocols/dynamixel2.md`; Feetech's lock, servo reference 3.5.
 
 mod judge;
 mod refusal;
@@ -16,14 +17,17 @@ mod writes;
 
 pub use refusal::{Refusal, Why};
 
+use super::block::{Block, is_covered};
 use super::bus::{Bus, BusError, Mode};
 use super::event::BusEvent;
 use super::gather::Gather;
 use super::limit::Limiter;
-use super::table::Block;
+use super::member::Member;
+use super::register::Field;
+use super::slot::Slot;
 use crate::clock::Instant;
 
-/// How far arming has come. Each stage begins with its writes, gathers a block, and judges it.
+/// How far arming has come. Each stage begins with its writes, gathers rows, and judges them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
     Identity,
@@ -52,11 +56,44 @@ enum Next {
     Armed,
 }
 
-impl Arming {
-    fn begin(stage: Stage, block: Block, ids: Vec<u8>) -> Self {
-        let gather = Gather::new(block, ids).after_silence();
-        Self { stage, gather }
+impl Stage {
+    /// What is read of a servo in this stage.
+    fn blocks(self, slot: &Slot) -> Vec<Block> {
+        let table = &slot.table;
+        let servo = slot.member.servo();
+        let covering = |rows: &[Option<Field>]| {
+            let rows: Vec<Field> = rows.iter().copied().flatten().collect();
+            Block::covering(servo, &rows)
+        };
+        match self {
+            Self::Identity => covering(&[table.model, table.firmware]),
+            Self::Errors => covering(&[table.error]),
+            Self::Supply => covering(&[table.voltage, table.temperature]),
+            Self::Settings { .. } => covering(&[table.return_delay, table.drive_mode, table.operating_mode]),
+            Self::Range => covering(&[table.position_max, table.position_min]),
+            Self::Profile { .. } => covering(&[table.acceleration, table.speed, table.goal_time]),
+            Self::Measure { .. } => vec![table.status],
+            Self::Pin { .. } | Self::Held { .. } => goal_and_status(slot),
+            Self::Torque { .. } => covering(&[Some(table.torque)]),
+        }
     }
+}
+
+/// In one block if nothing but registers lies between them.
+fn goal_and_status(slot: &Slot) -> Vec<Block> {
+    let (goal, status) = (slot.table.goal, slot.table.status);
+    let servo = slot.member.servo();
+    let end = status.address + status.bytes;
+    let near = end.saturating_sub(goal.address) <= 32;
+    if goal.address < status.address && near && is_covered(servo, goal.address, end) {
+        let whole = Field {
+            address: status.address,
+            size: status.bytes as u8,
+            ..goal
+        };
+        return vec![Block::spanning(servo, &[goal, whole])];
+    }
+    vec![status, Block::spanning(servo, &[goal])]
 }
 
 impl Bus {
@@ -65,6 +102,13 @@ impl Bus {
     /// Refused as a whole when one member cannot be armed; [`Bus::refusals`] says why.
     pub fn begin_arming(&mut self, now: Instant) -> Result<(), BusError> {
         self.begin_stage(Stage::Identity, now)
+    }
+
+    /// Members whose servos cannot stop by themselves when the host falls silent: they hold the last goal until
+    /// somebody switches torque off or cuts the power.
+    pub fn unwatched(&self) -> impl Iterator<Item = &Member> {
+        let slots = self.slots.iter().filter(|slot| slot.table.watchdog.is_none());
+        slots.map(|slot| &slot.member)
     }
 
     /// As arming, but for members that were armed already: measures, pins, clears and re-arms the watchdog.
@@ -81,23 +125,9 @@ impl Bus {
             slot.pin = None;
             slot.held_rad = None;
         }
-        let block = self.stage_block(stage);
-        self.mode = Mode::Arming(Arming::begin(stage, block, self.ids()));
+        let gather = Gather::new(&self.slots, |slot| stage.blocks(slot)).after_silence();
+        self.mode = Mode::Arming(Arming { stage, gather });
         Ok(())
-    }
-
-    fn stage_block(&self, stage: Stage) -> Block {
-        match stage {
-            Stage::Identity => self.table.identity,
-            Stage::Errors => self.table.error_block,
-            Stage::Supply => self.table.supply,
-            Stage::Settings { .. } => self.table.settings,
-            Stage::Range => self.table.range,
-            Stage::Profile { .. } => self.table.profile,
-            Stage::Measure { .. } => self.table.status,
-            Stage::Pin { .. } | Stage::Held { .. } => self.table.goal_and_status,
-            Stage::Torque { .. } => self.table.torque_block,
-        }
     }
 
     /// Carries arming on as far as it goes without waiting.
@@ -135,14 +165,15 @@ impl Bus {
 
     /// Does the writes that a stage begins with, then asks its question.
     fn enter(&mut self, stage: Stage, arming: &Arming, now: Instant) -> Result<(), BusError> {
+        let mut deaf_until = now;
         match stage {
-            Stage::Settings { written } if written > 0 => self.write_settings(arming, now)?,
+            Stage::Settings { written } if written > 0 => deaf_until = self.write_settings(arming, now)?,
             Stage::Profile { .. } => self.write_profiles(now)?,
             Stage::Pin { .. } => self.write_pins(now)?,
             Stage::Torque { .. } => self.write_torque_on(now)?,
             _ => {}
         }
-        let gather = Gather::new(self.stage_block(stage), self.ids());
+        let gather = Gather::new(&self.slots, |slot| stage.blocks(slot)).not_before(deaf_until);
         // What is measured again is measured after a silence: then nothing late can be taken for an answer.
         let again = matches!(stage, Stage::Measure { tries } | Stage::Held { tries } if tries > 0);
         let gather = if again { gather.after_silence() } else { gather };

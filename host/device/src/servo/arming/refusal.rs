@@ -2,6 +2,7 @@
 
 use crate::servo::framing::StatusError;
 use crate::servo::member::error_names;
+use device_profiles::Role;
 
 /// Why one servo cannot be armed, and what to do about it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -60,7 +61,7 @@ pub enum Why {
     /// It answered an instruction with an error.
     #[error("answered \"{error}\" to reading address {address}; check model and firmware")]
     Answer {
-        /// What it says.
+        /// What it said.
         error: StatusError,
         /// First byte read.
         address: u16,
@@ -68,8 +69,8 @@ pub enum Why {
     /// A setting reads differently from what was written.
     #[error("keeps \"{register}\" at {found} instead of {wanted}; power it off and on, and try again")]
     Setting {
-        /// The row.
-        register: &'static str,
+        /// What the row is for.
+        register: Role,
         /// What was written.
         wanted: i64,
         /// What was read.
@@ -78,7 +79,7 @@ pub enum Why {
     /// The servo's own limits are narrower than the joint's range.
     #[error(
         "limits positions to {found_min} to {found_max} counts, the joint needs {needed_min} to {needed_max}; \
-         widen \"Min/Max Position Limit\" or narrow the joint's range"
+         widen its position limits or narrow the joint's range"
     )]
     Range {
         /// Min Position Limit read.
