@@ -26,7 +26,7 @@ pub mod kinetics;
 pub mod retarget;
 pub mod track;
 
-pub use chain::{Chain, ChainError, Joint, JointIndex, JointKind, Rigid};
+pub use chain::{Chain, ChainError, Coupling, Joint, JointIndex, JointKind, Rigid};
 pub use clip::{Clip, ClipError, ClipWarning};
 pub use curve::{BSpline, Blend, Curve, Interval, Natural, Smooth, SplineError};
 pub use figure::{

@@ -13,7 +13,9 @@ use ps300::display::{DisplayList, Stroke};
 use ps300::machine::Activity;
 use ps300::machine::picture::Picture;
 
+use crate::feasibility::FeasibilityView;
 use crate::journal::Digest;
+use crate::puppet::PuppetPoseView;
 
 /// The rig as it stood at the end of one step.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +30,7 @@ pub struct Snapshot {
     pub unsaved: bool,
     /// The figure on screen, if the show has one.
     pub figure: Option<FigureView>,
-    /// The clip being edited in its playable form; `None` while it has no key.
+    /// The clip being edited in its playable form; `None` while it has no key, and for a clip of joints.
     pub clip: Option<Arc<Clip>>,
     /// The clip's name.
     pub clip_name: String,
@@ -46,6 +48,10 @@ pub struct Snapshot {
     pub desk: DeskView,
     /// The servo puppet, if the show has one.
     pub puppet: Option<PuppetView>,
+    /// The puppet as it is posed on screen, if the show has one; it need not be where the servos are.
+    pub puppet_pose: Option<PuppetPoseView>,
+    /// Whether the puppet can do the clip; `None` without a puppet.
+    pub feasibility: Option<FeasibilityView>,
     /// Input devices, in order of their names.
     pub devices: Vec<DeviceView>,
     /// What [`crate::Command::Undo`] would take back, in words.
@@ -172,6 +178,13 @@ impl Snapshot {
         self.desk.digest(digest);
         if let Some(puppet) = &self.puppet {
             puppet.digest(digest);
+        }
+        if let Some(pose) = &self.puppet_pose {
+            pose.angles_rad.iter().for_each(|angle| digest.real(*angle));
+        }
+        for stretch in self.feasibility.iter().flat_map(|f| f.stretches.iter()) {
+            digest.real(stretch.from_secs);
+            digest.real(stretch.factor);
         }
         for note in &self.notes {
             digest.real(note.at_secs);

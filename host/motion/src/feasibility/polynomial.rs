@@ -99,11 +99,11 @@ fn hull(b: &[f64; TERMS]) -> (f64, f64) {
 /// De Casteljau's halving.
 fn halves(b: &[f64; TERMS]) -> ([f64; TERMS], [f64; TERMS]) {
     let (mut left, mut right) = (*b, *b);
-    for round in 1..TERMS {
+    for (round, into) in left.iter_mut().enumerate().skip(1) {
         for i in 0..TERMS - round {
             right[i] = f64::midpoint(right[i], right[i + 1]);
         }
-        left[round] = right[0];
+        *into = right[0];
     }
     (left, right)
 }

@@ -46,7 +46,7 @@ pub struct Motor {
 #[derive(Clone, Debug)]
 pub struct Loads {
     chain: Arc<Chain>,
-    loads: Vec<Option<Load>>,
+    carried: Vec<Option<Load>>,
     motors: Vec<Option<Motor>>,
     gravity_in_base: DVec3,
     /// Whether a joint has a motor and everything outwards of it has a known mass.
@@ -73,20 +73,16 @@ impl Loads {
     ) -> Self {
         loads.resize(chain.len(), None);
         motors.resize(chain.len(), None);
-        let mut carried: Vec<bool> = loads.iter().map(Option::is_some).collect();
+        let mut sure: Vec<bool> = loads.iter().map(Option::is_some).collect();
         for (index, joint) in chain.joints().iter().enumerate().rev() {
-            if let (false, Some(parent)) = (carried[index], joint.parent) {
-                carried[parent.index()] = false;
+            if let (false, Some(parent)) = (sure[index], joint.parent) {
+                sure[parent.index()] = false;
             }
         }
-        let known = carried
-            .iter()
-            .zip(&motors)
-            .map(|(c, m)| *c && m.is_some())
-            .collect();
+        let known = sure.iter().zip(&motors).map(|(c, m)| *c && m.is_some()).collect();
         Self {
             chain,
-            loads,
+            carried: loads,
             motors,
             gravity_in_base,
             known,
@@ -125,7 +121,7 @@ impl Loads {
                 spin += axis * speed;
             }
             moving[index] = (spin, spin_up, lift);
-            let load = self.loads[index].unwrap_or_default();
+            let load = self.carried[index].unwrap_or_default();
             let turned = DMat3::from_quat(placed[index].rotation);
             let centre = turned * load.centre_m;
             let inertia = turned * load.inertia_kg_m2 * turned.transpose();
@@ -316,14 +312,14 @@ mod tests {
         let rods = rods();
         let known = Loads::new(
             rods.chain.clone(),
-            vec![rods.loads[0], None],
+            vec![rods.carried[0], None],
             rods.motors.clone(),
             DVec3::ZERO,
         );
         assert_eq!(known.unknown().collect::<Vec<_>>(), [0, 1]);
         let without_a = Loads::new(
             rods.chain.clone(),
-            vec![None, rods.loads[1]],
+            vec![None, rods.carried[1]],
             rods.motors.clone(),
             DVec3::ZERO,
         );

@@ -48,7 +48,7 @@ pub enum KeyedJointsError {
 pub fn keyed<'k>(
     joints: &[String],
     rest_rad: &[f64],
-    keys: impl ExactSizeIterator<Item = &'k JointKey> + Clone,
+    keys: &(impl ExactSizeIterator<Item = &'k JointKey> + Clone),
 ) -> Result<JointPath, KeyedJointsError> {
     let count = keys.len();
     if count == 0 {
@@ -134,7 +134,7 @@ mod tests {
             key(2.0, &[("a", 0.0), ("b", 3.0)]),
             key(3.0, &[("a", -0.5)]),
         ];
-        let path = keyed(&joints, &[0.0, 0.0, 0.7], keys.iter()).expect("a path");
+        let path = keyed(&joints, &[0.0, 0.0, 0.7], &keys.iter()).expect("a path");
         let at = |u| {
             let mut angles = [0.0; 3];
             path.angles(u, &mut angles);
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn keys_that_cannot_be_passed() {
         let joints = ["a".to_owned()];
-        let refused = |keys: &[JointKey]| keyed(&joints, &[0.0], keys.iter()).err();
+        let refused = |keys: &[JointKey]| keyed(&joints, &[0.0], &keys.iter()).err();
         assert_eq!(refused(&[]), Some(KeyedJointsError::NoKeys));
         assert!(matches!(
             refused(&[key(0.0, &[("z", 0.0)])]),

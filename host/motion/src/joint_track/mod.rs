@@ -9,6 +9,7 @@ pub mod survey;
 
 pub use keyed::{JointKey, KeyedJointsError, keyed};
 
+use crate::chain::Coupling;
 use crate::curve::Interval;
 use crate::joint_clip::{JointClip, JointClipError};
 use crate::kinetics::Kinetics;
@@ -52,6 +53,21 @@ impl JointPath {
     /// Where joints cannot be where they were wanted.
     pub fn strains(&self) -> &[Strain] {
         &self.strains
+    }
+
+    /// The same path where the joints that follow others do; couplings count joints in the path's own order.
+    #[must_use]
+    pub fn coupled(&self, couplings: &[Coupling]) -> Self {
+        let mut path = self.clone();
+        for coupling in couplings {
+            let (led, leading) = (coupling.joint.index(), coupling.follows.index());
+            for row in path.cubics.chunks_exact_mut(self.joints.len()) {
+                row[led] = row[leading].map(|c| coupling.ratio * c);
+                row[led][0] += coupling.offset_rad;
+            }
+            path.last_rad[led] = coupling.ratio * path.last_rad[leading] + coupling.offset_rad;
+        }
+        path
     }
 
     /// Which row of cubics holds at a coordinate, and how far from its left knot; none outside the knots' range.

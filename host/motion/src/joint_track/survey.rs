@@ -185,7 +185,7 @@ impl Survey {
         let stretch = self.stretch_of(at);
         // A corner next door spoils some of the cubics, never those that end at this cell's ends.
         let stencils =
-            [at.saturating_sub(1), at.saturating_sub(2), at].map(|begin| self.stencil(stretch, begin));
+            [at.saturating_sub(1), at.saturating_sub(2), at].map(|begin| Self::stencil(stretch, begin));
         let told = |joint: usize, angle: f64| {
             let off = |&(first, last): &(usize, usize)| (angle - self.fitted(first, last, joint, u)).abs();
             stencils.iter().any(|stencil| off(stencil) <= tolerance)
@@ -216,7 +216,7 @@ impl Survey {
     /// happened to lie where it does not show.
     fn torn(&self) -> Option<usize> {
         let slope = |cell: usize, joint: usize, at: usize| {
-            let (first, last) = self.stencil(self.stretch_of(cell), cell.saturating_sub(1));
+            let (first, last) = Self::stencil(self.stretch_of(cell), cell.saturating_sub(1));
             self.cubic(first, last, joint, self.nodes[at].u)[1]
         };
         let smooth = |cell: usize| {
@@ -246,7 +246,7 @@ impl Survey {
     }
 
     /// Four nodes, or as many as there are, from `begin` if they can be.
-    fn stencil(&self, (first, last): (usize, usize), begin: usize) -> (usize, usize) {
+    fn stencil((first, last): (usize, usize), begin: usize) -> (usize, usize) {
         let end = (begin.max(first) + 3).min(last);
         (end.saturating_sub(3).max(first), end)
     }
@@ -302,13 +302,13 @@ impl Survey {
     fn cell_cubic(&self, cell: usize, joint: usize) -> [f64; 4] {
         let about = self.nodes[cell].u;
         if !self.nodes[cell].gap {
-            let (first, last) = self.stencil(self.stretch_of(cell), cell.saturating_sub(1));
+            let (first, last) = Self::stencil(self.stretch_of(cell), cell.saturating_sub(1));
             return self.cubic(first, last, joint, about);
         }
         let near = cell.saturating_sub(GAP_CELLS_MAX)..cell;
         match near.rev().find(|&before| !self.nodes[before].gap) {
             Some(before) => {
-                let (first, last) = self.stencil(self.stretch_of(before), before.saturating_sub(1));
+                let (first, last) = Self::stencil(self.stretch_of(before), before.saturating_sub(1));
                 self.cubic(first, last, joint, about)
             }
             None => self.cubic(cell, cell + 1, joint, about),

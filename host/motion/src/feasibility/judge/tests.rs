@@ -26,7 +26,7 @@ fn track(keys: &[(f64, f64)], mode: KineticsMode) -> JointTrack {
         .collect();
     let times: Vec<f64> = keys.iter().map(|key| key.secs).collect();
     JointTrack {
-        path: Arc::new(keyed(&["a".to_owned()], &[0.0], keys.iter()).expect("a path")),
+        path: Arc::new(keyed(&["a".to_owned()], &[0.0], &keys.iter()).expect("a path")),
         kinetics: Kinetics::new(&times, mode).expect("kinetics"),
     }
 }
