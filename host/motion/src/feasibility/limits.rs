@@ -13,9 +13,9 @@ pub struct JointLimits {
     pub accel_max_rad_per_s2: f64,
 }
 
-/// How far a joint may be off its path where the path has a corner, radians (our choice: about half a degree,
-/// which is what small servos' gears have in play).
-pub const CORNER_RAD: f64 = 0.01;
+/// How far a joint may be off its path where the path has a corner, radians (our choice: two degrees, which nobody
+/// sees on a small puppet).
+pub const CORNER_RAD: f64 = 0.035;
 
 impl JointLimits {
     /// The acceleration that a sudden change of speed asks for, when the corner is cut by no more than

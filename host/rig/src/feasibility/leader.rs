@@ -24,6 +24,7 @@ pub(super) struct FigureLeader {
     follower: Follower,
     placed: Vec<Placed>,
     other: Vec<Placed>,
+    error_rad: f64,
 }
 
 impl FigureLeader {
@@ -33,15 +34,22 @@ impl FigureLeader {
             follower: Follower::new(body),
             placed: Vec::new(),
             other: Vec::new(),
+            error_rad: 0.0,
         }
     }
 
-    fn note(&self, strained: &mut Vec<(usize, f64)>) -> usize {
+    /// The largest angle between a link and what its joints could do about it so far.
+    pub(super) fn error_rad(&self) -> f64 {
+        self.error_rad
+    }
+
+    fn note(&mut self, strained: &mut Vec<(usize, f64)>) -> usize {
         strained.extend(
             self.follower
                 .errors()
                 .map(|(joint, error_rad)| (joint, error_rad / REACH_RAD)),
         );
+        self.error_rad = self.error_rad.max(self.follower.report().direction_error_rad());
         let groups = &self.follower.report().groups;
         let searches = groups.iter().filter(|group| group.cost > SEARCH_COST).count();
         groups.len() * WORK_PER_GROUP + searches * WORK_PER_SEARCH

@@ -5,6 +5,7 @@
 
 mod leader;
 mod view;
+mod whole;
 
 use std::sync::Arc;
 
@@ -14,8 +15,9 @@ use motion::joint_track::survey::Survey;
 use motion::{Clip, JointPath, JointTrack, Kinetics};
 
 pub use view::{FeasibilityView, StretchKind, StretchView};
+pub use whole::{JudgeError, JudgedClip, judge};
 
-use crate::document::Show;
+use crate::document::{JointClipDoc, JointClipDocError, Show};
 use crate::puppet::{Body, Model};
 use leader::FigureLeader;
 
@@ -54,6 +56,16 @@ impl Judged {
             unjudged: words.into(),
         }
     }
+
+    /// A clip of joints as the puppet plays it, led joints included; `None` while it has no key.
+    pub(crate) fn track(&self, clip: &JointClipDoc) -> Result<Option<JointTrack>, JointClipDocError> {
+        let chain = &self.model.chain;
+        let track = clip.track(&self.model.joints, &chain.rest_angles())?;
+        Ok(track.map(|track| JointTrack {
+            path: Arc::new(track.path.coupled(chain.couplings())),
+            kinetics: track.kinetics,
+        }))
+    }
 }
 
 /// What is being found out.
@@ -80,6 +92,8 @@ pub(crate) struct Rehearsal {
     work: Work,
     /// The path and the keys it came from; timing may change without it.
     known: Option<(Poses, Arc<JointPath>)>,
+    /// The largest angle between a link and what its joints could do about it, along that path.
+    error_rad: f64,
     body: Option<Body>,
     stretches: Arc<[StretchView]>,
     slow_down: f64,
@@ -113,6 +127,7 @@ impl Rehearsal {
             judged,
             work: Work::Nothing,
             known: None,
+            error_rad: 0.0,
             body: None,
             stretches: Arc::default(),
             slow_down: 1.0,
@@ -163,6 +178,7 @@ impl Rehearsal {
     /// Takes a clip of joints into rehearsal.
     pub(crate) fn set_track(&mut self, track: &JointTrack) {
         (self.slow_wanted, self.slowing, self.known) = (false, None, None);
+        self.error_rad = 0.0;
         self.judge(track.clone());
     }
 
@@ -187,6 +203,7 @@ impl Rehearsal {
                 kinetics,
             } => {
                 if let Some(path) = survey.advance(&mut **leader, work) {
+                    self.error_rad = leader.error_rad();
                     let (path, kinetics) = (Arc::new(path), kinetics.clone());
                     self.known = Poses::of(show).map(|poses| (poses, Arc::clone(&path)));
                     self.judge(JointTrack { path, kinetics });
@@ -286,6 +303,15 @@ impl Rehearsal {
         matches!(self.work, Work::Surveying { .. } | Work::Judging { .. })
     }
 
+    pub(crate) fn judged(&self) -> &Judged {
+        &self.judged
+    }
+
+    /// The largest angle between a link of the figure and what its joints could do about it, radians.
+    pub(crate) fn error_rad(&self) -> f64 {
+        self.error_rad
+    }
+
     pub(crate) fn stretches(&self) -> &Arc<[StretchView]> {
         &self.stretches
     }
@@ -302,6 +328,7 @@ impl Rehearsal {
             stretches: Arc::clone(&self.stretches),
             unjudged: Arc::clone(&self.judged.unjudged),
             slow_down: self.slow_down,
+            error_rad: self.error_rad,
             slowing: self.slow_wanted || self.slowing.is_some(),
         }
     }

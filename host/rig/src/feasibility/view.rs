@@ -15,6 +15,9 @@ pub struct FeasibilityView {
     /// By what the whole clip would have to be slowed; 1 for one that is slow enough. [`crate::Command::SlowToFit`]
     /// does with less, where it can slow only parts.
     pub slow_down: f64,
+    /// The largest angle between a link of the figure and what its joints could do about it, radians; 0 for a clip of
+    /// joints.
+    pub error_rad: f64,
     /// Whether [`crate::Command::SlowToFit`] is looking for key times.
     pub slowing: bool,
 }

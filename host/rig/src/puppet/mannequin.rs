@@ -38,10 +38,6 @@ impl Mannequin {
         }
     }
 
-    pub(crate) fn model(&self) -> &Arc<Model> {
-        &self.model
-    }
-
     /// Does what the hand asks; says what was wrong with it otherwise and leaves the pose alone.
     pub(crate) fn apply(&mut self, pose: &PuppetPose, measured: Option<&PuppetView>) -> Result<(), String> {
         match pose {

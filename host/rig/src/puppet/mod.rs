@@ -158,10 +158,7 @@ impl Seat {
 
     /// Passes an order on, or says why not. Playing is ordered by [`Seat::play`].
     pub(crate) fn order(&mut self, order: &PuppetCommand) -> Result<(), String> {
-        if !matches!(
-            order,
-            PuppetCommand::Heartbeat | PuppetCommand::CompensateLag(_)
-        ) {
+        if !matches!(order, PuppetCommand::Heartbeat | PuppetCommand::CompensateLag(_)) {
             self.following = *order == PuppetCommand::Follow;
             self.follower = None;
         }

@@ -112,18 +112,12 @@ impl Rig {
                 .filter(|times| !times.is_empty())?;
             return clip?.timing().kinetics(&times).ok();
         };
-        let model = rehearsing.mannequin.model();
-        let track = clip.map_or(Ok(None), |clip| {
-            clip.track(&model.joints, &model.chain.rest_angles())
-        });
-        let (track, error) = match track {
+        let judged = rehearsing.rehearsal.judged();
+        let (track, error) = match clip.map_or(Ok(None), |clip| judged.track(clip)) {
             Ok(track) => (track, None),
             Err(error) => (None, Some(format!("clip {}: {error}", show.clip))),
         };
-        rehearsing.track = track.map(|track| JointTrack {
-            path: Arc::new(track.path.coupled(model.chain.couplings())),
-            kinetics: track.kinetics,
-        });
+        rehearsing.track = track;
         let kinetics = rehearsing.track.as_ref().map(|track| track.kinetics.clone());
         if let Some(error) = error {
             self.note(NoteLevel::Error, error);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::super::{Slowing, Timing};
+use super::super::{CORNER_RAD, Slowing, Timing};
 use super::*;
 use crate::curve::Interval;
 use crate::joint_track::{JointKey, keyed};
@@ -49,14 +49,15 @@ fn a_straight_way_is_as_fast_as_its_chord() {
 
 #[test]
 fn ends_are_corners() {
-    // Half a radian a second begins and ends at once: 0.5^2 / (8 * 0.01) = 3.125.
+    // Half a radian a second begins and ends at once.
     let swing = track(&[(0.0, 0.0), (2.0, 1.0)], KineticsMode::Natural);
-    assert!(Judge::whole(&swing, limits(2.0, 1.0, 3.126), None).is_empty());
-    let found = Judge::whole(&swing, limits(2.0, 1.0, 1.0), None);
+    let asked = 0.25 / (8.0 * CORNER_RAD);
+    assert!(Judge::whole(&swing, limits(2.0, 1.0, asked * 1.001), None).is_empty());
+    let found = Judge::whole(&swing, limits(2.0, 1.0, 0.5), None);
     assert_eq!(found.len(), 2);
-    assert!((found[0].factor - 3.125).abs() < 1e-6);
-    // The blend takes half a second, half of it on either side.
-    assert!((found[1].from_secs - 1.75).abs() < 1e-9 && (found[1].to_secs - 2.25).abs() < 1e-9);
+    assert!((found[0].factor - asked / 0.5).abs() < 1e-9);
+    // The blend takes a second, half of it on either side.
+    assert!((found[1].from_secs - 1.5).abs() < 1e-9 && (found[1].to_secs - 2.5).abs() < 1e-9);
 }
 
 #[test]
