@@ -1,7 +1,7 @@
 //! Lines of standard input as orders, without ever waiting for one.
 
 use std::io::{BufRead, IsTerminal};
-use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::Duration;
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -37,10 +37,7 @@ impl Orders {
 
     /// The next order, if one has come.
     pub(super) fn next(&self) -> Option<String> {
-        match self.0.try_recv() {
-            Ok(order) => Some(order),
-            Err(TryRecvError::Empty | TryRecvError::Disconnected) => None,
-        }
+        self.0.try_recv().ok()
     }
 }
 
