@@ -32,7 +32,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             &mut line,
             &MonotonicClock::new(),
             &there,
-            &mut || None,
             &mut |_| (),
         )
     });

@@ -7,6 +7,7 @@
 //! [`scenario`] (what one would say at the bench), [`demo`] (the whole chain as one story) and [`serve`]
 //! (devices for other programs, in real time).
 
+mod calibrating;
 pub mod demo;
 pub mod dut;
 pub mod hands;

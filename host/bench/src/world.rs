@@ -10,10 +10,12 @@ use std::time::Duration;
 
 use device::clock::{Clock, Instant, MonotonicClock, VirtualClock};
 use device_profiles::Profiles;
+use rig::calibration::{Proposal, Reading};
 use rig::document::Show;
 use rig::journal::{Recorder, RecordingPorts};
 use rig::{Command, InputSpec, Pace, Ports, PuppetSpec, Rig, RigError, RigOptions, Snapshot};
 
+use crate::calibrating::Calibrating;
 use crate::dut::{Dut, MixedPorts};
 use crate::hands::Hands;
 use crate::stand::{HandError, PuppetPlan, SCHEME, SimPorts, Stand, StandError};
@@ -179,6 +181,10 @@ pub struct World {
     rig: Rig,
     seen: Arc<Snapshot>,
     refused: Vec<HandError>,
+    calibrating: Calibrating,
+    profiles: Arc<Profiles>,
+    equipment: Equipment,
+    dut: Option<Dut>,
 }
 
 impl World {
@@ -208,6 +214,7 @@ impl World {
             Some(recorder) => Box::new(RecordingPorts::new(ports, recorder.clone())),
             None => ports,
         };
+        let held = Arc::clone(&profiles);
         let mut rig = start_rig(&clock, ports, show, profiles, &equipment, recorder, dut.as_ref())?;
         let seen = rig.step(&mut std::iter::empty());
         let hands = Hands::new(stand.clone());
@@ -219,6 +226,10 @@ impl World {
             rig,
             seen,
             refused: Vec::new(),
+            calibrating: Calibrating::default(),
+            profiles: held,
+            equipment,
+            dut,
         })
     }
 
@@ -233,8 +244,50 @@ impl World {
             }
         }
         self.refused.extend(self.hands.advance());
+        self.refused.extend(self.calibrating.sample().err());
         self.seen = self.rig.step(&mut commands.into_iter());
         &self.seen
+    }
+
+    /// Takes the puppet's lines for a calibration by hand; the rig loses them.
+    pub fn begin_calibration(&mut self, joint: Option<&str>) -> Result<(), HandError> {
+        let puppet = self.equipment.puppet.as_deref();
+        self.calibrating
+            .begin(&self.stand, &self.clock, &self.profiles, puppet, joint)
+    }
+
+    /// Every joint stands at its zero.
+    pub fn mark_zero(&mut self) -> Result<(), HandError> {
+        self.calibrating.mark_zero()
+    }
+
+    /// Ends the sweep, writes what it tells, and begins the rig anew with the profile that was written. Where a joint
+    /// is refused nothing is written; the rig begins anew all the same.
+    pub fn end_calibration(&mut self, reading: Reading) -> Result<(), HandError> {
+        if let Some(written) = self.calibrating.end(reading, &self.profiles)? {
+            self.profiles = Arc::new(written);
+        }
+        let ports = Box::new(MixedPorts::new(SimPorts::new(self.stand.clone())));
+        let show = Show::clone(self.rig.show());
+        let profiles = Arc::clone(&self.profiles);
+        self.rig = start_rig(
+            &self.clock,
+            ports,
+            show,
+            profiles,
+            &self.equipment,
+            None,
+            self.dut.as_ref(),
+        )
+        .map_err(|error| HandError::Calibration {
+            why: error.to_string(),
+        })?;
+        Ok(())
+    }
+
+    /// What the last calibration told.
+    pub fn calibrated(&self) -> &[Proposal] {
+        self.calibrating.proposals()
     }
 
     /// Lets the host sleep: time goes on for the devices, and nobody asks them anything.

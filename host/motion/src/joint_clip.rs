@@ -116,12 +116,7 @@ impl JointClip {
             return Err(JointClipError::BadPeriod { period_secs });
         }
         let chain = retarget.chain();
-        // A hair less, so that a whole number of periods does not become one more by rounding.
-        let rows = (clip.duration_secs() / period_secs - 1e-9).ceil().max(0.0) + 1.0;
-        if rows > ROWS_MAX {
-            return Err(JointClipError::TooLong { rows });
-        }
-        let rows = rows as usize;
+        let rows = Self::rows_for(clip.duration_secs(), period_secs)?;
         let mut report = BakeReport {
             slow_down: 1.0,
             ..BakeReport::default()
@@ -153,6 +148,16 @@ impl JointClip {
         }
         let names = chain.joints().iter().map(|joint| joint.name.clone()).collect();
         Ok((Self::new(names, period_secs, samples)?, report))
+    }
+
+    /// How many rows cover a duration, the last at or just after its end.
+    pub(crate) fn rows_for(duration_secs: f64, period_secs: f64) -> Result<usize, JointClipError> {
+        // A hair less, so that a whole number of periods does not become one more by rounding.
+        let rows = (duration_secs / period_secs - 1e-9).ceil().max(0.0) + 1.0;
+        if rows > ROWS_MAX {
+            return Err(JointClipError::TooLong { rows });
+        }
+        Ok(rows as usize)
     }
 
     /// The joints, in the order of every row.

@@ -3,6 +3,8 @@
 //! The window, the command line, the scenarios, the function network's parameters and the journal all send
 //! these values and nothing else. They are plain data: the journal stores them as JSON, one a line.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 /// One request. Requests that cannot be met leave a [`crate::Note`] and change nothing.
@@ -34,6 +36,10 @@ pub enum Command {
     View(ViewCommand),
     /// What the servo puppet does.
     Puppet(PuppetCommand),
+    /// Poses the puppet itself, joint by joint or by its ends.
+    PuppetPose(PuppetPose),
+    /// Gives the clip's keys other times, so that the puppet can do it; the path stays. One step of undo.
+    SlowToFit,
     /// Writes the show to its folder.
     Save,
 }
@@ -170,6 +176,21 @@ pub enum EditCommand {
         /// Animation time.
         secs: f64,
     },
+    /// Stores angles of the puppet's joints as a key of a clip of joints (replaces a key at the same time);
+    /// begins such a clip if there is none.
+    StoreJoints {
+        /// Animation time.
+        secs: f64,
+        /// Joint names and radians; joints left out pass by this key.
+        angles_rad: BTreeMap<String, f64>,
+    },
+    /// Begins a clip of the puppet's own joints and chooses it.
+    BeginJointClip(String),
+    /// Gives all keys other times at once; the path stays.
+    Retime {
+        /// Animation times, one for each key, in order.
+        times_secs: Vec<f64>,
+    },
     /// Deletes a key.
     DeleteKey {
         /// Its index, earliest first.
@@ -264,6 +285,40 @@ pub enum ViewCommand {
     },
     /// Back to the front view that holds the whole figure.
     Reset,
+}
+
+/// Posing a puppet without a figure. It moves live where the puppet follows ([`PuppetCommand::Follow`]), and is
+/// stored by [`EditCommand::StoreKey`] where the clip is one of joints.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PuppetPose {
+    /// Puts a joint at an angle; it stops at its range.
+    Joint {
+        /// Its name in the puppet profile.
+        joint: String,
+        /// Radians.
+        angle_rad: f64,
+    },
+    /// Turns a joint; it stops at its range.
+    JointBy {
+        /// Its name in the puppet profile.
+        joint: String,
+        /// Radians, added.
+        by_rad: f64,
+    },
+    /// Drags the end of a link somewhere; the joints before it come along as far as they can.
+    Drag {
+        /// The link's name in the puppet profile.
+        link: String,
+        /// World axes, metres, as [`crate::PuppetPoseView::ends`].
+        to: [f64; 3],
+    },
+    /// All joints to rest.
+    Rest,
+    /// Takes over where the servos are.
+    FromMeasured,
+    /// Takes over the pose that the clip shows at the present time, and goes along with it again.
+    FromClip,
 }
 
 /// Orders to the puppet's player.

@@ -6,10 +6,12 @@
 //! [`Ports`].
 //! *Start reading* at [`command`] and [`snapshot`] (what goes in and out), then [`Rig::step`] (the order).
 
+pub mod calibration;
 pub mod command;
 mod desk;
 pub mod doctor;
 pub mod document;
+pub mod feasibility;
 pub mod history;
 mod inputs;
 pub mod journal;
@@ -29,19 +31,20 @@ mod stage;
 mod system;
 mod timeline;
 mod view;
-mod ward;
+pub mod ward;
 mod wiring;
 
 pub use command::{
-    Command, EditCommand, KineticsMode, NetworkEdit, PoseCommand, PuppetCommand, Side, Touch,
+    Command, EditCommand, KineticsMode, NetworkEdit, PoseCommand, PuppetCommand, PuppetPose, Side, Touch,
     TransportCommand, ViewCommand,
 };
 pub use device_profiles::Profiles;
+pub use feasibility::{FeasibilityView, StretchKind, StretchView};
 pub use inputs::{InputError, InputSpec};
 pub use live::{Live, LiveError};
 pub use player::Tracking;
 pub use ports::{Found, Ports, TouchError};
-pub use puppet::{Pace, PuppetSpec};
+pub use puppet::{EndHandle, JointHandle, Pace, PuppetPoseView, PuppetSpec};
 pub use rig::{Rig, RigError, RigOptions};
 pub use snapshot::{
     DeskKeyView, DeskView, DeviceHealth, DeviceView, DialView, FigureView, JointView, KeyView, KineticsView,

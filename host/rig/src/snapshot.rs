@@ -13,7 +13,9 @@ use ps300::display::{DisplayList, Stroke};
 use ps300::machine::Activity;
 use ps300::machine::picture::Picture;
 
+use crate::feasibility::FeasibilityView;
 use crate::journal::Digest;
+use crate::puppet::PuppetPoseView;
 
 /// The rig as it stood at the end of one step.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +30,7 @@ pub struct Snapshot {
     pub unsaved: bool,
     /// The figure on screen, if the show has one.
     pub figure: Option<FigureView>,
-    /// The clip being edited in its playable form; `None` while it has no key.
+    /// The clip being edited in its playable form; `None` while it has no key, and for a clip of joints.
     pub clip: Option<Arc<Clip>>,
     /// The clip's name.
     pub clip_name: String,
@@ -46,6 +48,10 @@ pub struct Snapshot {
     pub desk: DeskView,
     /// The servo puppet, if the show has one.
     pub puppet: Option<PuppetView>,
+    /// The puppet as it is posed on screen, if the show has one; it need not be where the servos are.
+    pub puppet_pose: Option<PuppetPoseView>,
+    /// Whether the puppet can do the clip; `None` without a puppet.
+    pub feasibility: Option<FeasibilityView>,
     /// Input devices, in order of their names.
     pub devices: Vec<DeviceView>,
     /// What [`crate::Command::Undo`] would take back, in words.
@@ -172,6 +178,13 @@ impl Snapshot {
         self.desk.digest(digest);
         if let Some(puppet) = &self.puppet {
             puppet.digest(digest);
+        }
+        if let Some(pose) = &self.puppet_pose {
+            pose.angles_rad.iter().for_each(|angle| digest.real(*angle));
+        }
+        for stretch in self.feasibility.iter().flat_map(|f| f.stretches.iter()) {
+            digest.real(stretch.from_secs);
+            digest.real(stretch.factor);
         }
         for note in &self.notes {
             digest.real(note.at_secs);
@@ -328,10 +341,6 @@ pub struct PuppetView {
     pub bones: Vec<[DVec3; 2]>,
     /// Whether any servo may have torque.
     pub torque: bool,
-    /// What it backs off for, and which joint has it, in words.
-    pub backing_off: Option<String>,
-    /// How fast time runs for what is played, as a share of what was asked for.
-    pub pace: f64,
     /// Whether this step sent goals on every bus.
     pub goals_sent: bool,
     /// Whether servos that had torque can no longer be asked, or have not answered that it is off.
@@ -381,10 +390,6 @@ pub struct JointView {
     pub lag_secs: Option<f64>,
     /// How well it follows.
     pub tracking: Tracking,
-    /// What is wrong with it that can still be helped by doing less, in a word.
-    pub trouble: Option<&'static str>,
-    /// Share of the way from wish to joint that its goal has retreated, 0 to 1.
-    pub retreat: f64,
 }
 
 /// An input device.

@@ -4,6 +4,7 @@ use firmware_sim::Fault;
 use firmware_sim::hands::Turn;
 use rig::{Command, NetworkEdit, PuppetCommand, TransportCommand};
 
+use super::calibrating::Calibrate;
 use super::horn::HornHand;
 use super::words::{Flaw, Parsed, Words};
 use crate::hands::{Movement, Tool};
@@ -35,6 +36,7 @@ pub(super) const VERBS: &[&str] = &[
     "stall",
     "push",
     "hand",
+    "calibrate",
     "mark",
     "do",
 ];
@@ -62,6 +64,8 @@ pub(super) enum Doing {
     Push { joint: String, rad: f64 },
     /// A hand stays on a joint.
     Horn(HornHand),
+    /// A puppet is calibrated by hand.
+    Calibrate(Calibrate),
     /// Where the servos are is remembered.
     Mark,
 }
@@ -120,6 +124,7 @@ impl Doing {
                 }
             }
             "hand" => Self::Horn(HornHand::parse(words)?),
+            "calibrate" => Self::Calibrate(Calibrate::parse(words)?),
             "mark" => Self::Mark,
             _ => json(column, words)?,
         })
@@ -133,7 +138,12 @@ impl Doing {
             Self::Plug { device, .. } | Self::PowerCycle { device } => Some(device),
             Self::Fault { bus, .. } | Self::Mend { bus } => Some(bus),
             // Joints are found on the stand, or they are not there.
-            Self::Push { .. } | Self::Horn(_) | Self::Ask(_) | Self::Stall { .. } | Self::Mark => None,
+            Self::Push { .. }
+            | Self::Horn(_)
+            | Self::Calibrate(_)
+            | Self::Ask(_)
+            | Self::Stall { .. }
+            | Self::Mark => None,
         }
     }
 
@@ -167,6 +177,7 @@ impl Doing {
             Self::Stall { secs } => world.stall(*secs),
             Self::Push { joint, rad } => world.stand().push(joint, *rad)?,
             Self::Horn(hand) => hand.act(world.stand())?,
+            Self::Calibrate(step) => step.act(world)?,
             // The runner keeps the mark.
             Self::Mark => {}
         }

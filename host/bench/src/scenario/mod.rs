@@ -5,6 +5,7 @@
 //! bench could see.
 //! *Start reading* at [`Scenario::parse`], then [`run`].
 
+mod calibrating;
 mod check;
 mod doing;
 mod horn;
@@ -16,6 +17,7 @@ mod words;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use crate::stand::Horn;
 use check::Check;
 use doing::Doing;
 use firmware_sim::servo_bus::PlantKind;
@@ -60,6 +62,7 @@ struct Setting {
     plant: PlantKind,
     /// Where joints meet their ends.
     stops_rad: BTreeMap<String, [f64; 2]>,
+    horns: BTreeMap<String, Horn>,
     seed: u64,
 }
 

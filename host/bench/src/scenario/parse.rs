@@ -113,7 +113,8 @@ impl Setting {
         let path = |words: &mut Words<'_>| -> Parsed<PathBuf> { Ok(folder.join(words.text("a path")?)) };
         loop {
             match words.one_of(&[
-                "show", "puppet", "knobs", "tablet", "script", "pose", "sag", "shafts", "stops", "seed",
+                "show", "puppet", "knobs", "tablet", "script", "pose", "sag", "shafts", "stops", "horn",
+                "seed",
             ])? {
                 0 => self.show = Some(path(words)?),
                 1 => self.puppet = Some(words.text("a puppet profile")?),
@@ -140,11 +141,24 @@ impl Setting {
                     }
                     self.stops_rad.insert(joint, [low_rad, high_rad]);
                 }
+                9 => self.horn(words)?,
                 _ => self.seed = words.whole("a seed", 0..=u64::from(u32::MAX))?,
             }
             if !words.take(",") {
                 return words.end();
             }
         }
+    }
+
+    /// `horn JOINT off by ANGLE`, `horn JOINT reversed`.
+    fn horn(&mut self, words: &mut Words<'_>) -> Parsed<()> {
+        let horn = self.horns.entry(words.text("a joint")?).or_default();
+        if words.one_of(&["off", "reversed"])? == 1 {
+            horn.reversed = true;
+        } else {
+            words.expect("by")?;
+            horn.off_rad = words.angle("an angle")?;
+        }
+        Ok(())
     }
 }

@@ -133,6 +133,7 @@ fn begin(scenario: &Scenario, options: &RunOptions, seed: u64, dut: Option<&Dut>
     equipment.plan.sag_rad_per_s = setting.sag_rad_per_s;
     equipment.plan.plant = setting.plant;
     equipment.plan.stops_rad.clone_from(&setting.stops_rad);
+    equipment.plan.horns.clone_from(&setting.horns);
     equipment.plan.seed = seed;
     let profiles = Arc::clone(&options.profiles);
     World::new(WorldOptions {
@@ -325,6 +326,7 @@ impl<'a> Play<'a> {
             truths: &self.truths,
             past: self.past.each_ref().map(Vec::as_slice),
             mark: &self.mark,
+            calibrated: self.world.calibrated(),
         })
     }
 

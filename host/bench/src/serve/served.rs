@@ -8,7 +8,7 @@ use firmware_sim::wacom_iv::Model;
 use firmware_sim::{Firmware, Script, ServoBus, SgiDialBox, WacomIv};
 
 use super::ServeError;
-use super::eeprom::Eeprom;
+use super::bus::Eeprom;
 
 /// A simulated device ready to be served.
 pub enum Served {

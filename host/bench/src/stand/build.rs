@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
 
 use device::clock::Clock;
-use device_profiles::{KnobsProfile, ProfileError, Profiles, PuppetProfile, TabletProfile};
+use device_profiles::{
+    KnobsProfile, ProfileError, Profiles, PuppetJoint, PuppetProfile, ServoProfile, TabletProfile,
+};
 use firmware_sim::dial_box::Options;
 use firmware_sim::servo_bus::{AddError, BusOptions, PlantKind, Sag, Unit};
 use firmware_sim::wacom_iv::Model;
@@ -46,6 +48,15 @@ pub enum StandError {
     },
 }
 
+/// How a horn sits on its servo, against what the profile says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Horn {
+    /// Turned by so much, radians of the shaft.
+    pub off_rad: f64,
+    /// The joint turns the other way.
+    pub reversed: bool,
+}
+
 /// How a simulated puppet begins.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PuppetPlan {
@@ -57,10 +68,19 @@ pub struct PuppetPlan {
     pub plant: PlantKind,
     /// Where joints meet their ends, radians; those not named turn freely.
     pub stops_rad: BTreeMap<String, [f64; 2]>,
+    /// Horns that do not sit as the profile says.
+    pub horns: BTreeMap<String, Horn>,
     /// Decides what random faults hit.
     pub seed: u64,
     /// Buses that are real: their servos are not simulated.
     pub real_buses: BTreeSet<String>,
+}
+
+impl PuppetPlan {
+    fn mount(&self, joint: &PuppetJoint, servo: &ServoProfile) -> Mount {
+        let horn = self.horns.get(&joint.name).copied().unwrap_or_default();
+        Mount::new(joint, servo).with_horn(horn)
+    }
 }
 
 /// A bench being set up.
@@ -101,6 +121,7 @@ impl StandBuilder {
         plan: &PuppetPlan,
     ) -> Result<Self, StandError> {
         let named = plan.start_rad.keys().chain(plan.stops_rad.keys());
+        let named = named.chain(plan.horns.keys());
         if let Some(joint) = named.into_iter().find(|joint| puppet.joint(joint).is_none()) {
             return Err(StandError::NoSuchJoint {
                 joint: joint.clone(),
@@ -125,7 +146,7 @@ impl StandBuilder {
             let mut bus = ServoBus::new(options);
             for joint in puppet.joints_on(&line.name) {
                 let servo = profiles.servo(&joint.model)?;
-                let mount = Mount::new(joint, servo);
+                let mount = plan.mount(joint, servo);
                 let start_rad = mount.shaft_rad(plan.start_rad.get(&joint.name).copied().unwrap_or(0.0));
                 let stops_rad = plan.stops_rad.get(&joint.name).map(|stops| {
                     let [a, b] = stops.map(|rad| mount.shaft_rad(rad));
@@ -157,7 +178,7 @@ impl StandBuilder {
             )?;
         }
         for joint in puppet.joints() {
-            self.mounts.push(Mount::new(joint, profiles.servo(&joint.model)?));
+            self.mounts.push(plan.mount(joint, profiles.servo(&joint.model)?));
         }
         Ok(self)
     }

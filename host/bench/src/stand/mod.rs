@@ -20,7 +20,7 @@ use firmware_sim::Fault;
 use firmware_sim::hands::Touch;
 use firmware_sim::servo_bus::FaultError;
 
-pub use build::{PuppetPlan, StandBuilder, StandError};
+pub use build::{Horn, PuppetPlan, StandBuilder, StandError};
 pub use ports::SimPorts;
 use seat::{Seat, Simulated};
 pub use seat::{Shown, Traffic};
@@ -58,6 +58,12 @@ pub enum HandError {
         name: String,
         /// All buses.
         buses: String,
+    },
+    /// A calibration does not go on.
+    #[error("calibration: {why}")]
+    Calibration {
+        /// Why not.
+        why: String,
     },
     /// There is no such joint.
     #[error("there is no joint \"{joint}\"; there are: {known}")]

@@ -1,5 +1,6 @@
 //! What a test may know about a simulated joint that no byte on the wire tells.
 
+use super::Horn;
 use device_profiles::{PuppetJoint, ServoProfile};
 use firmware_sim::servo_bus::{Counters, Servo};
 
@@ -29,6 +30,15 @@ impl Mount {
             sign: f64::from(joint.sign),
             shaft_zero_rad: f64::from(joint.zero_counts - servo.centre_counts) * servo.rad_per_count(),
         }
+    }
+
+    /// The same with its horn on another way.
+    pub(super) fn with_horn(mut self, horn: Horn) -> Self {
+        self.shaft_zero_rad += horn.off_rad;
+        if horn.reversed {
+            self.sign = -self.sign;
+        }
+        self
     }
 
     pub(crate) fn shaft_rad(&self, joint_rad: f64) -> f64 {

@@ -2,6 +2,8 @@
 //!
 //! With `--json` the findings are the result and go to standard output.
 
+mod feasibility;
+
 use std::path::{Path, PathBuf};
 
 use bench::scenario::Scenario;
@@ -15,18 +17,22 @@ use crate::failure::{Exit, Failure};
 const EXAMPLES: &str = "\
 Examples:
   dialrig check shows/salute
-  dialrig check walk.bvh networks/*.ps300 --json";
+  dialrig check walk.bvh networks/*.ps300 --json
+  dialrig check shows/salute --puppet marionette   whether it can do the show, before anything moves";
 
 /// Everything that is wrong with files
 ///
 /// Checks show folders, show.toml, clips and hardware profiles (.toml), .str, .pri, .shp, .ps300, .bvh, journals
-/// (.jsonl) and scenarios (.scn); exits with 1 if one of them has an error.
+/// (.jsonl) and scenarios (.scn); exits with 1 if one of them has an error, or if a clip asks too much of the puppet.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     /// Files and show folders
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Also whether this puppet can do each clip of the shows: speed, acceleration, reach and torque
+    #[arg(long, value_name = "NAME")]
+    puppet: Option<String>,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
@@ -40,6 +46,15 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     }
     progress.finish_and_clear();
     report(&found, console)?;
+    let mut fits = true;
+    if let Some(puppet) = &args.puppet {
+        for file in args.files.iter().filter(|_| found.errors.is_empty()) {
+            fits &= feasibility::check(file, puppet, console)?;
+        }
+    }
+    if !fits {
+        return Ok(Exit::Refused);
+    }
     if found.errors.is_empty() {
         console.remark(format_args!(
             "{} in order{}",

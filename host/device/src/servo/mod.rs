@@ -8,6 +8,7 @@
 //! cannot write goals.
 
 pub mod bus;
+pub mod calibrate;
 pub mod doctor;
 pub mod framing;
 pub mod freshness;

@@ -3,8 +3,10 @@
 //! Not to be confused with [`crate::figure`], whose links know their own directions in the world.
 //! Source: the URDF joint element (origin, axis, limit), wiki.ros.org/urdf/XML/joint.
 
+pub mod reach;
 mod rigid;
 
+pub use reach::{End, Reached, reach};
 pub use rigid::Rigid;
 
 use crate::curve::Interval;
@@ -49,6 +51,19 @@ pub struct Joint {
     pub range_rad: Interval,
     /// How fast it may go, radians per second, above zero; infinite where nobody knows.
     pub speed_max_rad_per_s: f64,
+}
+
+/// A joint that follows another: its angle is `ratio` times the other's, plus `offset_rad`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// The joint that is led.
+    pub joint: JointIndex,
+    /// The joint it follows, which follows none itself.
+    pub follows: JointIndex,
+    /// Its angle for one radian of the other's; finite, not zero.
+    pub ratio: f64,
+    /// Its angle where the other's is 0, radians.
+    pub offset_rad: f64,
 }
 
 /// Why joints make no chain.
@@ -100,6 +115,18 @@ pub enum ChainError {
         /// The joint's name.
         joint: String,
     },
+    /// A coupling names joints of the chain, of which the leading one is led by nobody, and each is led once.
+    #[error(
+        "joint number {joint} cannot follow joint number {follows} by {ratio}; a led joint follows one that leads, by a finite ratio other than 0"
+    )]
+    BadCoupling {
+        /// The led joint.
+        joint: u16,
+        /// The one it follows.
+        follows: u16,
+        /// Its ratio.
+        ratio: f64,
+    },
     /// More joints than an index can count.
     #[error("{joints} joints are too many; {} are the most", u16::MAX)]
     TooMany {
@@ -108,10 +135,11 @@ pub enum ChainError {
     },
 }
 
-/// A robot's joints. Invariants: parents first; axes are unit vectors; ranges are finite.
+/// A robot's joints. Invariants: parents first; axes are unit vectors; ranges are finite; who leads is not led.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
     joints: Vec<Joint>,
+    couplings: Vec<Coupling>,
 }
 
 impl Chain {
@@ -126,7 +154,51 @@ impl Chain {
                 check(before, joint)?;
             }
         }
-        Ok(Self { joints })
+        Ok(Self {
+            joints,
+            couplings: Vec::new(),
+        })
+    }
+
+    /// The same chain with joints that follow others.
+    pub fn coupled(self, couplings: Vec<Coupling>) -> Result<Self, ChainError> {
+        let wrong = couplings.iter().enumerate().find(|(at, coupling)| {
+            let is_led = |joint: JointIndex| couplings.iter().any(|other| other.joint == joint);
+            let known = |joint: JointIndex| joint.index() < self.joints.len();
+            let twice = couplings[..*at].iter().any(|other| other.joint == coupling.joint);
+            let sound =
+                coupling.ratio.is_finite() && coupling.ratio != 0.0 && coupling.offset_rad.is_finite();
+            !(known(coupling.joint) && known(coupling.follows) && sound) || twice || is_led(coupling.follows)
+        });
+        if let Some((_, coupling)) = wrong {
+            return Err(ChainError::BadCoupling {
+                joint: coupling.joint.0,
+                follows: coupling.follows.0,
+                ratio: coupling.ratio,
+            });
+        }
+        Ok(Self { couplings, ..self })
+    }
+
+    /// The joints that follow others.
+    pub fn couplings(&self) -> &[Coupling] {
+        &self.couplings
+    }
+
+    /// Puts every led joint where the one it follows wants it; `angles` as for [`Chain::place`].
+    pub fn lead(&self, angles_rad: &mut [f64]) {
+        for coupling in &self.couplings {
+            if let Some(&leading) = angles_rad.get(coupling.follows.index())
+                && let Some(led) = angles_rad.get_mut(coupling.joint.index())
+            {
+                *led = coupling.ratio * leading + coupling.offset_rad;
+            }
+        }
+    }
+
+    /// What leads a joint, if anything does.
+    pub fn led(&self, joint: JointIndex) -> Option<&Coupling> {
+        self.couplings.iter().find(|coupling| coupling.joint == joint)
     }
 
     /// All joints, parents first.
@@ -152,12 +224,15 @@ impl Chain {
             .map(|i| JointIndex(i as u16))
     }
 
-    /// The angles nearest to zero that all joints may have.
+    /// The angles nearest to zero that all joints may have; led ones are where they are led.
     pub fn rest_angles(&self) -> Vec<f64> {
-        self.joints
+        let mut angles: Vec<f64> = self
+            .joints
             .iter()
             .map(|joint| joint.range_rad.clamp(0.0))
-            .collect()
+            .collect();
+        self.lead(&mut angles);
+        angles
     }
 
     /// Forward kinematics: where every joint's frame lies after its own turn, in the chain's order,
@@ -272,6 +347,34 @@ mod tests {
             Chain::new(twins).err(),
             Some(ChainError::DuplicateName { name: "a".into() })
         );
+    }
+
+    #[test]
+    fn led_joints_go_along() {
+        let joints = vec![joint("a", None, ABOUT_Z), joint("b", Some(0), ABOUT_Z)];
+        let coupling = |joint, follows, ratio| Coupling {
+            joint: JointIndex(joint),
+            follows: JointIndex(follows),
+            ratio,
+            offset_rad: 0.25,
+        };
+        let chain = Chain::new(joints).expect("valid");
+        let led = chain.clone().coupled(vec![coupling(1, 0, -0.5)]).expect("valid");
+        assert_eq!(led.rest_angles(), [0.0, 0.25]);
+        let mut angles = [1.0, 9.0];
+        led.lead(&mut angles);
+        assert_eq!(angles, [1.0, -0.25]);
+        for wrong in [
+            vec![coupling(1, 0, 0.0)],
+            vec![coupling(2, 0, 1.0)],
+            vec![coupling(1, 1, 1.0)],
+            vec![coupling(1, 0, 1.0), coupling(0, 1, 1.0)],
+        ] {
+            assert!(matches!(
+                chain.clone().coupled(wrong),
+                Err(ChainError::BadCoupling { .. })
+            ));
+        }
     }
 
     #[test]

@@ -199,7 +199,12 @@ impl Clip {
 
     /// Where every link lies at a time; allocates nothing once `placed` has room for all links.
     pub fn place(&self, secs: f64, placed: &mut Vec<Placed>) {
-        let (interval, s) = self.locate(secs);
+        self.place_at(self.kinetics.u(secs), placed);
+    }
+
+    /// Where every link lies at a key coordinate, whenever that is reached; clamped to the keys.
+    pub fn place_at(&self, u: f64, placed: &mut Vec<Placed>) {
+        let (interval, s) = self.interval_of(u);
         let (root, segments) = (self.root(interval, s), self.interval(interval));
         let mut frames = [DMat3::IDENTITY; CHUNK];
         placed.clear();
@@ -227,8 +232,12 @@ impl Clip {
 
     /// Which interval of keys a time falls into, and how far: 0 to 1.
     fn locate(&self, secs: f64) -> (usize, f64) {
+        self.interval_of(self.kinetics.u(secs))
+    }
+
+    fn interval_of(&self, u: f64) -> (usize, f64) {
         let last_key = self.kinetics.last_key();
-        let u = self.kinetics.u(secs).clamp(0.0, last_key as f64);
+        let u = u.clamp(0.0, last_key as f64);
         let interval = (u as usize).min(last_key.saturating_sub(1));
         (interval, u - interval as f64)
     }

@@ -9,6 +9,7 @@ mod monotone;
 mod roots;
 
 pub(crate) use monotone::limit as limit_slope;
+pub(crate) use roots::monotone_parts;
 
 use crate::curve::{Curve, Interval, Natural, Piecewise, Smooth, SplineError, span_polynomial};
 use thiserror::Error;
@@ -144,6 +145,11 @@ impl Kinetics {
             curve,
             coefficients: wanted,
         }
+    }
+
+    /// Cubics over seconds, each about the left of two key times.
+    pub(crate) fn curve(&self) -> &Piecewise<f64> {
+        &self.curve
     }
 
     /// How time becomes key coordinate.

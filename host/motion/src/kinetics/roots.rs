@@ -44,6 +44,14 @@ fn stretches(curve: &Piecewise<f64>) -> Vec<Stretch> {
     out
 }
 
+/// The parts of 0 to `width` on which a cubic only rises or only falls, in order.
+pub(crate) fn monotone_parts(c: &[f64; 4], width: f64) -> impl Iterator<Item = (f64, f64)> {
+    let mut cuts = vec![0.0];
+    cuts.extend(turning_points(c).into_iter().filter(|&x| x > 0.0 && x < width));
+    cuts.push(width);
+    (1..cuts.len()).map(move |i| (cuts[i - 1], cuts[i]))
+}
+
 fn cubic(c: &[f64; 4], x: f64) -> f64 {
     c[0] + (c[1] + (c[2] + c[3] * x) * x) * x
 }

@@ -213,6 +213,10 @@ fn check_clip(source: &Source, found: &mut Findings) {
         .parent()
         .and_then(Path::parent)
         .map(|folder| folder.join("show.toml"));
+    if clip_file::is_of_joints(source) {
+        clip_file::read_joints(source, found);
+        return;
+    }
     let figure = show
         .filter(|show| show.exists())
         .and_then(|show| figure_beside(&show));

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::SystemTime;
 
 use super::bvh;
-use super::clip::ClipDoc;
+use super::clip::{ClipDoc, JointClipDoc};
 use super::clip_file;
 use super::fault::{FileError, FileErrors, Findings};
 use super::figure::{FigureDoc, FigureTexts};
@@ -94,7 +94,7 @@ fn read(folder: &Path, file: &Path, found: &mut Findings) -> Option<Show> {
         .figure
         .as_ref()
         .and_then(|named| read_figure(folder, named, &source, found));
-    let clips = read_clips(folder, &text, figure.as_ref(), &source, found);
+    let (clips, joint_clips) = read_clips(folder, &text, figure.as_ref(), &source, found);
     let networks = read_networks(folder, &text, &source, found);
     let patches = text
         .patches
@@ -105,6 +105,7 @@ fn read(folder: &Path, file: &Path, found: &mut Findings) -> Option<Show> {
         name: text.name,
         figure: figure.map(Arc::new),
         clips,
+        joint_clips,
         clip,
         networks,
         patches: patches.map_or_else(|| Arc::from(""), |source| Arc::from(source.text())),
@@ -163,36 +164,48 @@ fn read_figure(folder: &Path, named: &Named, show: &Source, found: &mut Findings
     Some(figure)
 }
 
+type Clips = (
+    BTreeMap<String, Arc<ClipDoc>>,
+    BTreeMap<String, Arc<JointClipDoc>>,
+);
+
 fn read_clips(
     folder: &Path,
     text: &ShowText,
     figure: Option<&FigureDoc>,
     show: &Source,
     found: &mut Findings,
-) -> BTreeMap<String, Arc<ClipDoc>> {
-    let mut clips = BTreeMap::new();
+) -> Clips {
+    let (mut clips, mut joint_clips) = Clips::default();
     for named in &text.clips {
-        if text.figure.is_none() {
-            found.error(show.error(named.at, "a clip needs a figure; this show names none"));
-            continue;
-        }
         let path = folder.join("clips").join(format!("{}.toml", named.name));
         let Some(source) = open_part(&path, named, show, found) else {
             continue;
         };
         let mut own = Findings::default();
-        let clip = clip_file::read(&source, figure.map(|figure| &*figure.figure), &mut own);
+        let of_joints = clip_file::is_of_joints(&source);
+        if !of_joints && text.figure.is_none() {
+            found.error(show.error(named.at, "a clip needs a figure; this show names none"));
+            continue;
+        }
+        let name = named.name.clone();
+        let twice = if of_joints {
+            let clip = clip_file::read_joints(&source, &mut own);
+            joint_clips
+                .insert(name, Arc::new(clip.unwrap_or_default()))
+                .is_some()
+        } else {
+            let clip = clip_file::read(&source, figure.map(|figure| &*figure.figure), &mut own);
+            clips.insert(name, Arc::new(clip.unwrap_or_default())).is_some()
+        };
         own.errors.into_iter().for_each(|error| found.error(error));
         own.warnings.into_iter().for_each(|warning| found.warn(warning));
-        if clips
-            .insert(named.name.clone(), Arc::new(clip.unwrap_or_default()))
-            .is_some()
-        {
+        if twice {
             found.error(show.error(named.at, format!("clip `{}` is named twice", named.name)));
         }
     }
     warn_of_unlisted(&folder.join("clips"), text, found);
-    clips
+    (clips, joint_clips)
 }
 
 /// A clip file that the show does not name is not read; that may not be meant.

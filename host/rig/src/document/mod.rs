@@ -26,7 +26,7 @@ pub mod source;
 pub mod structure;
 mod zyz;
 
-pub use clip::ClipDoc;
+pub use clip::{ClipDoc, JointClipDoc, JointClipDocError, Keyed};
 pub use edit::{EditError, Edited, apply};
 pub use fault::{FileError, FileErrors, Findings};
 pub use figure::{FigureDoc, FigureTexts};

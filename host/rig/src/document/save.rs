@@ -100,6 +100,12 @@ fn files(show: &Show, folder: &Path) -> Result<Vec<NewFile>, FileErrors> {
             add(folder.join("clips").join(format!("{name}.toml")), text);
         }
     }
+    for (name, clip) in &show.joint_clips {
+        add(
+            folder.join("clips").join(format!("{name}.toml")),
+            clip_file::write_joints(clip),
+        );
+    }
     for network in &show.networks {
         add(
             folder.join("networks").join(format!("{}.ps300", network.name)),
@@ -116,7 +122,7 @@ fn files(show: &Show, folder: &Path) -> Result<Vec<NewFile>, FileErrors> {
 /// Names become file names; a name that cannot is refused before anything is written.
 fn check_names(show: &Show, folder: &Path) -> Result<(), FileErrors> {
     let figure = show.figure.iter().map(|figure| figure.name.as_str());
-    let clips = show.clips.keys().map(String::as_str);
+    let clips = show.clip_names();
     let networks = show.networks.iter().map(|network| network.name.as_str());
     let fault = |name: &str| {
         let error = FileError::whole(folder, format!("`{name}` cannot be the name of a file"));

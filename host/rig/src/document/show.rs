@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::clip::ClipDoc;
+use super::clip::{ClipDoc, JointClipDoc};
 use super::figure::FigureDoc;
 use crate::snapshot::ViewState;
 
@@ -17,7 +17,9 @@ pub struct Show {
     pub figure: Option<Arc<FigureDoc>>,
     /// Clips of that figure by name. Empty without a figure.
     pub clips: BTreeMap<String, Arc<ClipDoc>>,
-    /// Name of the clip being edited, a key of `clips`; empty when there is none.
+    /// Clips of the puppet's own joints by name; no name is in both.
+    pub joint_clips: BTreeMap<String, Arc<JointClipDoc>>,
+    /// Name of the clip being edited, a key of `clips` or `joint_clips`; empty when there is none.
     pub clip: String,
     /// Function networks, in the order they are executed.
     pub networks: Vec<Arc<NetworkFile>>,
@@ -39,9 +41,44 @@ pub struct NetworkFile {
 }
 
 impl Show {
-    /// The clip being edited.
+    /// The clip being edited, if it is one of the figure.
     pub fn current_clip(&self) -> Option<&Arc<ClipDoc>> {
         self.clips.get(&self.clip)
+    }
+
+    /// The clip being edited, if it is one of the puppet's joints.
+    pub fn current_joint_clip(&self) -> Option<&Arc<JointClipDoc>> {
+        self.joint_clips.get(&self.clip)
+    }
+
+    /// Key times of the clip being edited, of either kind, seconds.
+    pub fn key_times_secs(&self) -> Vec<f64> {
+        let of_joints = || self.current_joint_clip().map(|clip| clip.times_secs());
+        let of_figure = self.current_clip().map(|clip| clip.times_secs());
+        of_figure.or_else(of_joints).unwrap_or_default()
+    }
+
+    /// Names of all clips, in order.
+    pub fn clip_names(&self) -> impl Iterator<Item = &str> {
+        let mut names: Vec<&str> = self
+            .clips
+            .keys()
+            .chain(self.joint_clips.keys())
+            .map(String::as_str)
+            .collect();
+        names.sort_unstable();
+        names.into_iter()
+    }
+
+    /// The show with one clip of joints put in place of that of the same name, or added.
+    #[must_use]
+    pub fn with_joint_clip(&self, name: &str, clip: JointClipDoc) -> Self {
+        let mut joint_clips = self.joint_clips.clone();
+        joint_clips.insert(name.to_owned(), Arc::new(clip));
+        Self {
+            joint_clips,
+            ..self.clone()
+        }
     }
 
     /// The show with network commands added to its patches.

@@ -211,7 +211,7 @@ pub(super) fn write(show: &Show) -> String {
     if let Some(figure) = &show.figure {
         line("figure", quoted(&figure.name));
     }
-    line("clips", strings(show.clips.keys().map(|name| quoted(name))));
+    line("clips", strings(show.clip_names().map(quoted)));
     if !show.clip.is_empty() {
         line("clip", quoted(&show.clip));
     }

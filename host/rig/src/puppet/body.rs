@@ -2,18 +2,20 @@
 //!
 //! The profile's groups are named after the links of the figure it was laid out for. A figure with other names
 //! (motion capture) is followed through the profile's synonyms; its link axes are turned to the profile's, which
-//! are known from the figure's own rest pose.
+//! are known from the figure's own rest pose. A robot whose groups are its own links follows where synonyms name
+//! links of the figure: such a group takes the joints before it along, up to three, and the others rest.
 
 use std::sync::Arc;
 
 use device_profiles::{ProfileError, Profiles, PuppetGroup, PuppetProfile};
-use glam::{DMat3, DQuat, DVec3};
-use motion::retarget::Group;
+use glam::{DMat3, DVec3};
+use motion::retarget::{GROUP_JOINTS_MAX, Group};
 use motion::{
-    Chain, ChainError, Clip, Figure, FigureError, Interval, Joint, JointClip, JointClipError, JointIndex,
-    JointKind, LinkIndex, LinkSpec, Placed, Retarget, RetargetError, RetargetReport, Rigid,
+    ChainError, Figure, FigureError, JointIndex, LinkIndex, LinkSpec, Placed, Retarget, RetargetError,
+    RetargetReport,
 };
 
+use super::model::{Model, tool, upright};
 use crate::document::Show;
 
 /// Why a puppet cannot follow a figure.
@@ -67,10 +69,19 @@ pub enum BodyError {
 /// A puppet that follows a figure.
 #[derive(Clone, Debug)]
 pub struct Body {
-    joints: Vec<String>,
+    model: Arc<Model>,
     retarget: Retarget,
-    /// For each group, the figure's link and the turn from the profile's link axes to the figure's.
+    /// For each link of the followed tree, the figure's link and the turn from the profile's axes to the figure's.
     leaders: Vec<(LinkIndex, DMat3)>,
+    followers: Vec<Following>,
+}
+
+/// Joints that follow one link.
+#[derive(Clone, Debug)]
+struct Following {
+    /// In the followed tree.
+    link: LinkIndex,
+    joints: Vec<JointIndex>,
 }
 
 /// How link axes lie at rest in a figure, one matrix a link (`world_from_link` when everybody stands upright);
@@ -81,41 +92,54 @@ impl Body {
     /// Lets `profile` follow `figure`.
     pub fn new(profile: &PuppetProfile, figure: &Figure, rest: RestFrames<'_>) -> Result<Self, BodyError> {
         let puppet = || profile.name.clone();
-        let (tree, _) = Figure::new(&tree_of(profile)).map_err(|source| BodyError::Tree {
+        let model = Model::new(profile).map_err(|source| BodyError::Chain {
             puppet: puppet(),
             source,
         })?;
-        let leaders = tree
-            .links()
-            .iter()
-            .filter_map(|link| profile.groups.get(link.number as usize))
-            .map(|group| match leader(profile, group, figure, rest) {
-                // A rigid part carries no joint that could follow.
-                Err(_) if group.joints.is_empty() && group.parent.is_some() => {
-                    Ok((LinkIndex(0), DMat3::IDENTITY))
-                }
-                led => led,
+        let joints = joints_of(profile, figure, &model)?;
+        let (tree, _) = Figure::new(&tree_of(profile, &joints)).map_err(|source| BodyError::Tree {
+            puppet: puppet(),
+            source,
+        })?;
+        let leaders = tree.links().iter().map(|link| {
+            let at = link.number as usize;
+            let (group, joints) = (profile.groups.get(at), joints.get(at).map_or(0, Vec::len));
+            group
+                .and_then(|group| leader(group, joints, figure, rest))
+                .unwrap_or((LinkIndex(0), DMat3::IDENTITY))
+        });
+        let leaders = leaders.collect();
+        let followers: Vec<Following> = (0..)
+            .zip(joints)
+            .filter(|(_, joints)| !joints.is_empty())
+            .filter_map(|(number, joints)| {
+                let link = tree.by_number(number)?;
+                Some(Following { link, joints })
             })
-            .collect::<Result<_, _>>()?;
-        let (chain, groups) = chain_of(profile, &tree).map_err(|source| BodyError::Chain {
-            puppet: puppet(),
-            source,
-        })?;
+            .collect();
+        let groups: Vec<Group> = followers
+            .iter()
+            .map(|following| Group {
+                link: following.link,
+                joints: following.joints.clone(),
+                joint_from_link: turn_of(profile, &tree, following.link),
+            })
+            .collect();
         // The first group is the root, and parents come first in a figure.
         let root = profile
             .groups
             .first()
-            .map(|group| (LinkIndex(0), rotation(group.tool_rpy_rad)));
-        let retarget = Retarget::new(Arc::new(tree), Arc::new(chain), root, &groups).map_err(|source| {
-            BodyError::Retarget {
-                puppet: puppet(),
-                source,
-            }
+            .map(|group| (LinkIndex(0), tool(group).rotation));
+        let retarget = Retarget::new(Arc::new(tree), Arc::clone(&model.chain), root, &groups);
+        let retarget = retarget.map_err(|source| BodyError::Retarget {
+            puppet: puppet(),
+            source,
         })?;
         Ok(Self {
-            joints: profile.joints().map(|j| j.name.clone()).collect(),
+            model: Arc::new(model),
             retarget,
             leaders,
+            followers,
         })
     }
 
@@ -132,7 +156,14 @@ impl Body {
 
     /// Joint names, in the order of all rows of angles.
     pub fn joints(&self) -> &[String] {
-        &self.joints
+        &self.model.joints
+    }
+
+    /// The figure's link that a joint follows, if it follows one.
+    pub(crate) fn leading_link(&self, joint: usize) -> Option<LinkIndex> {
+        let follows = |f: &&Following| f.joints.iter().any(|own| own.index() == joint);
+        let following = self.followers.iter().find(follows)?;
+        self.leaders.get(following.link.index()).map(|(link, _)| *link)
     }
 
     /// The figure's placed links as the puppet's groups see them.
@@ -146,29 +177,10 @@ impl Body {
             })
         }));
     }
-
-    /// Bakes a clip: angles of all joints every `period_secs`. Returns also the largest angle between a link
-    /// and what the joints could do about it, radians.
-    pub fn bake(&self, clip: &Clip, period_secs: f64) -> Result<(JointClip, f64), JointClipError> {
-        let rows = (clip.duration_secs() / period_secs - 1e-9).ceil().max(0.0) as usize + 1;
-        let mut samples = Vec::with_capacity(rows * self.joints.len());
-        let mut follower = Follower::new(self);
-        let mut placed = Vec::new();
-        let mut error_rad: f64 = 0.0;
-        for row in 0..rows {
-            clip.place(clip.start_secs() + row as f64 * period_secs, &mut placed);
-            samples.extend_from_slice(follower.follow(&placed));
-            error_rad = error_rad.max(follower.report.direction_error_rad());
-        }
-        Ok((
-            JointClip::new(self.joints.clone(), period_secs, samples)?,
-            error_rad,
-        ))
-    }
 }
 
 /// Follows a figure pose by pose, each answer near the one before.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Follower {
     body: Body,
     angles_rad: Vec<f64>,
@@ -191,63 +203,148 @@ impl Follower {
 
     /// Joint angles for a placed figure, radians, in the body's order.
     pub fn follow(&mut self, placed: &[Placed]) -> &[f64] {
-        self.body.led(placed, &mut self.led);
+        let mut angles_rad = std::mem::take(&mut self.angles_rad);
         if self.begun {
-            self.body
-                .retarget
-                .follow(&self.led, &mut self.angles_rad, &mut self.report);
+            self.follow_from(placed, &mut angles_rad);
         } else {
-            self.body
-                .retarget
-                .begin(&self.led, &mut self.angles_rad, &mut self.report);
-            self.begun = true;
+            self.begin_from(placed, &mut angles_rad);
         }
+        self.angles_rad = angles_rad;
         &self.angles_rad
+    }
+
+    /// As [`Follower::follow`], near angles that somebody else kept; the best branch of all.
+    pub(crate) fn begin_from(&mut self, placed: &[Placed], angles_rad: &mut [f64]) {
+        self.body.led(placed, &mut self.led);
+        self.body.retarget.begin(&self.led, angles_rad, &mut self.report);
+        self.body.model.chain.lead(angles_rad);
+        self.begun = true;
+    }
+
+    /// As [`Follower::follow`], near angles that somebody else kept.
+    pub(crate) fn follow_from(&mut self, placed: &[Placed], angles_rad: &mut [f64]) {
+        self.body.led(placed, &mut self.led);
+        self.body.retarget.follow(&self.led, angles_rad, &mut self.report);
+        self.body.model.chain.lead(angles_rad);
+    }
+
+    /// How the last pose went.
+    pub(crate) fn report(&self) -> &RetargetReport {
+        &self.report
+    }
+
+    /// For every followed link: how far its direction is from where it was wanted, radians, and the joint that
+    /// stands in the way (one at its limit, else the outermost).
+    pub(crate) fn errors(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.report.groups.iter().filter_map(|group| {
+            let following = self.body.followers.iter().find(|f| f.link == group.link)?;
+            let mut at_limit = following.joints.iter().zip(group.at_limit);
+            let limited = at_limit.find(|(_, at)| *at).map(|(joint, _)| joint);
+            let joint = limited.or(following.joints.last())?;
+            Some((joint.index(), group.direction_error_rad))
+        })
     }
 }
 
-/// The figure's link that leads a group.
-fn leader(
+/// The joints that follow the figure through each group: its own, and those of groups before it that follow nothing.
+fn joints_of(
     profile: &PuppetProfile,
+    figure: &Figure,
+    model: &Model,
+) -> Result<Vec<Vec<JointIndex>>, BodyError> {
+    let led = |at: usize| {
+        profile
+            .groups
+            .get(at)
+            .is_some_and(|group| link_of(group, figure).is_some())
+    };
+    let no_such_link = |group: &PuppetGroup| BodyError::NoSuchLink {
+        puppet: profile.name.clone(),
+        link: names(group).cloned().collect::<Vec<_>>().join(" or "),
+        known: figure
+            .links()
+            .iter()
+            .map(|l| l.name.as_str())
+            .collect::<Vec<_>>()
+            .join(", "),
+    };
+    if let Some(root) = profile.groups.first().filter(|_| !led(0)) {
+        return Err(no_such_link(root));
+    }
+    let free = |joint: &&JointIndex| model.chain.led(**joint).is_none();
+    let mut joints: Vec<Vec<JointIndex>> = vec![Vec::new(); profile.groups.len()];
+    let mut taken = vec![false; profile.groups.len()];
+    for (at, link) in model.links.iter().enumerate().filter(|(at, _)| led(*at)) {
+        let mut own: Vec<JointIndex> = link.own.iter().filter(free).copied().collect();
+        let mut before = link.parent.filter(|&parent| parent > 0 && !led(parent));
+        while let Some(parent) = before.filter(|&parent| !taken[parent] && !own.is_empty()) {
+            let theirs = model.links[parent].own.iter().filter(free).copied();
+            let both: Vec<JointIndex> = theirs.chain(own.iter().copied()).collect();
+            if both.len() > GROUP_JOINTS_MAX {
+                break;
+            }
+            (own, taken[parent]) = (both, true);
+            before = model.links[parent]
+                .parent
+                .filter(|&parent| parent > 0 && !led(parent));
+        }
+        (joints[at], taken[at]) = (own, true);
+    }
+    let idle = |(at, group): &(usize, &PuppetGroup)| !taken[*at] && !group.joints.is_empty();
+    match profile.groups.iter().enumerate().find(idle) {
+        // Laid out for this kind of figure, it wants all of it.
+        Some((_, group)) if profile.figure.is_some() => Err(no_such_link(group)),
+        _ => Ok(joints),
+    }
+}
+
+/// How the link lies in the frame of its group's last joint.
+fn turn_of(profile: &PuppetProfile, tree: &Figure, link: LinkIndex) -> glam::DQuat {
+    let number = tree.link(link).map_or(0, |link| link.number as usize);
+    profile
+        .groups
+        .get(number)
+        .map_or(glam::DQuat::IDENTITY, |group| tool(group).rotation)
+}
+
+/// What a group's link may be called.
+fn names(group: &PuppetGroup) -> impl Iterator<Item = &String> {
+    std::iter::once(&group.link).chain(&group.also)
+}
+
+fn link_of(group: &PuppetGroup, figure: &Figure) -> Option<LinkIndex> {
+    names(group).find_map(|name| figure.by_name(name))
+}
+
+/// The figure's link that leads a group of so many joints.
+fn leader(
     group: &PuppetGroup,
+    joints: usize,
     figure: &Figure,
     rest: RestFrames<'_>,
-) -> Result<(LinkIndex, DMat3), BodyError> {
-    let names = || std::iter::once(&group.link).chain(&group.also);
-    let Some(link) = names().find_map(|name| figure.by_name(name)) else {
-        let known: Vec<_> = figure.links().iter().map(|l| l.name.as_str()).collect();
-        return Err(BodyError::NoSuchLink {
-            puppet: profile.name.clone(),
-            link: names().cloned().collect::<Vec<_>>().join(" or "),
-            known: known.join(", "),
-        });
-    };
+) -> Option<(LinkIndex, DMat3)> {
+    let link = link_of(group, figure)?;
     // A direction alone (two joints) needs the bone's own axis, whatever the rest pose was.
-    let whole = group.parent.is_none() || group.joints.len() == 3;
+    let whole = group.parent.is_none() || joints == GROUP_JOINTS_MAX;
     let turn = match rest.and_then(|frames| frames.get(link.index())) {
         Some(world_from_link) if whole => world_from_link.transpose() * upright(),
         _ => DMat3::IDENTITY,
     };
-    Ok((link, turn))
-}
-
-/// The profile's link axes when everybody stands upright and looks at the viewer: z down along the link, x to
-/// the body's own right, y to its back; world axes are x right, y up, z towards the viewer.
-pub(super) fn upright() -> DMat3 {
-    DMat3::from_cols(DVec3::NEG_X, DVec3::NEG_Z, DVec3::NEG_Y)
+    Some((link, turn))
 }
 
 /// The groups as a tree of links, so that they can be followed as a figure is.
-pub(super) fn tree_of(profile: &PuppetProfile) -> Vec<LinkSpec> {
+fn tree_of(profile: &PuppetProfile, joints: &[Vec<JointIndex>]) -> Vec<LinkSpec> {
     let place = |link: &str| profile.groups.iter().position(|g| g.link == link);
     let mut specs: Vec<LinkSpec> = profile
         .groups
         .iter()
+        .zip(joints)
         .enumerate()
-        .map(|(number, group)| LinkSpec {
+        .map(|(number, (group, joints))| LinkSpec {
             number: number as u32,
             name: group.link.clone(),
-            dof: if group.parent.is_none() || group.joints.len() == 3 {
+            dof: if group.parent.is_none() || joints.len() == GROUP_JOINTS_MAX {
                 3
             } else {
                 2
@@ -266,53 +363,4 @@ pub(super) fn tree_of(profile: &PuppetProfile) -> Vec<LinkSpec> {
         }
     }
     specs
-}
-
-/// The joints as a chain, and the groups that follow links.
-pub(super) fn chain_of(profile: &PuppetProfile, tree: &Figure) -> Result<(Chain, Vec<Group>), ChainError> {
-    let mut joints: Vec<Joint> = Vec::new();
-    let mut groups = Vec::new();
-    // The last joint of each group; a group without joints passes its parent's on.
-    let mut last: Vec<Option<JointIndex>> = Vec::new();
-    for (number, group) in profile.groups.iter().enumerate() {
-        let parent = group
-            .parent
-            .as_deref()
-            .and_then(|p| profile.groups.iter().position(|g| g.link == p));
-        let mut hangs_from = parent.and_then(|p| last.get(p).copied().flatten());
-        let mut own = Vec::new();
-        for joint in &group.joints {
-            own.push(JointIndex(joints.len() as u16));
-            joints.push(Joint {
-                name: joint.name.clone(),
-                parent: hangs_from,
-                parent_from_joint: Rigid::from_xyz_rpy(
-                    DVec3::from_array(joint.origin_xyz_m),
-                    DVec3::from_array(joint.origin_rpy_rad),
-                ),
-                kind: JointKind::Revolute {
-                    axis: DVec3::from_array(joint.axis),
-                },
-                range_rad: Interval {
-                    start: joint.min_rad,
-                    end: joint.max_rad,
-                },
-                speed_max_rad_per_s: joint.speed_max_rad_per_s,
-            });
-            hangs_from = own.last().copied();
-        }
-        last.push(hangs_from);
-        if let (false, Some(link)) = (own.is_empty(), tree.by_number(number as u32)) {
-            groups.push(Group {
-                link,
-                joints: own,
-                joint_from_link: rotation(group.tool_rpy_rad),
-            });
-        }
-    }
-    Chain::new(joints).map(|chain| (chain, groups))
-}
-
-fn rotation(rpy_rad: [f64; 3]) -> DQuat {
-    Rigid::from_xyz_rpy(DVec3::ZERO, DVec3::from_array(rpy_rad)).rotation
 }

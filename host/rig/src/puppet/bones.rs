@@ -1,88 +1,44 @@
 //! What a puppet looks like at given joint angles, standing upright: one line a group, and one from each group to
 //! the nearer end of the group it hangs from.
 
-use device_profiles::PuppetProfile;
-use glam::{DQuat, DVec3};
-use motion::{Chain, Figure, Rigid};
+use std::sync::Arc;
 
-use super::body::{chain_of, tree_of, upright};
+use glam::DVec3;
+use motion::{JointKind, Rigid};
+
+use super::model::{LinkOfModel, Model};
+use super::pose_view::{EndHandle, JointHandle};
 
 /// Ends nearer than this need no line between them, metres.
 const JOINED_M: f64 = 1e-3;
 
 /// Lines to draw a puppet with.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Bones {
-    chain: Chain,
-    lines: Vec<Bone>,
+    model: Arc<Model>,
     /// Reused from call to call.
     placed: Vec<Rigid>,
 }
 
-/// The link of one group.
-#[derive(Debug)]
-struct Bone {
-    /// The joint it hangs from; `None` for the base.
-    joint: Option<usize>,
-    start: DVec3,
-    end: DVec3,
-    /// The bone it hangs from.
-    parent: Option<usize>,
-}
-
 impl Bones {
-    /// For a profile whose joints make a chain; `None` for others, which cannot be drawn.
-    pub(super) fn new(profile: &PuppetProfile) -> Option<Self> {
-        let (tree, _) = Figure::new(&tree_of(profile)).ok()?;
-        let (chain, _) = chain_of(profile, &tree).ok()?;
-        let mut bones: Vec<Bone> = Vec::new();
-        let mut joints = 0;
-        for group in &profile.groups {
-            joints += group.joints.len();
-            let parent = group
-                .parent
-                .as_deref()
-                .and_then(|p| profile.groups.iter().position(|g| g.link == p));
-            let joint = match (group.joints.len(), parent) {
-                (0, Some(parent)) => bones.get(parent)?.joint,
-                (0, None) => None,
-                _ => Some(joints - 1),
-            };
-            let tool = Rigid::from_xyz_rpy(
-                DVec3::from_array(group.tool_xyz_m),
-                DVec3::from_array(group.tool_rpy_rad),
-            );
-            let end = tool.transform_point(DVec3::Z * group.length_m);
-            bones.push(Bone {
-                joint,
-                start: tool.translation,
-                end,
-                parent,
-            });
-        }
-        Some(Self {
-            chain,
-            lines: bones,
+    pub(super) fn new(model: Arc<Model>) -> Self {
+        Self {
+            model,
             placed: Vec::new(),
-        })
+        }
     }
 
-    /// Start and end of every group's link and of the lines that join them, metres, world axes (x right, y up, z towards the viewer), the base at
-    /// the origin.
+    /// Start and end of every group's link and of the lines that join them, metres, world axes (x right, y up,
+    /// z towards the viewer), the base at the origin.
     pub(super) fn at(&mut self, angles_rad: &[f64]) -> Vec<[DVec3; 2]> {
-        let base = Rigid {
-            rotation: DQuat::from_mat3(&upright()),
-            translation: DVec3::ZERO,
+        self.place(angles_rad);
+        let line = |link: &LinkOfModel| {
+            let frame = self.frame(link);
+            [frame.transform_point(link.start), frame.transform_point(link.end)]
         };
-        self.chain.place(&base, angles_rad, &mut self.placed);
-        let frame = |joint: Option<usize>| joint.and_then(|j| self.placed.get(j)).copied().unwrap_or(base);
-        let line = |bone: &Bone| {
-            let frame = frame(bone.joint);
-            [frame.transform_point(bone.start), frame.transform_point(bone.end)]
-        };
-        let mut lines: Vec<[DVec3; 2]> = self.lines.iter().map(line).collect();
-        for (index, bone) in self.lines.iter().enumerate() {
-            let Some([from, to]) = bone.parent.and_then(|parent| lines.get(parent).copied()) else {
+        let mut lines: Vec<[DVec3; 2]> = self.model.links.iter().map(line).collect();
+        for (index, link) in self.model.links.iter().enumerate() {
+            let Some([from, to]) = link.parent.and_then(|parent| lines.get(parent).copied()) else {
                 continue;
             };
             let start = lines[index][0];
@@ -97,6 +53,40 @@ impl Bones {
         }
         lines
     }
+
+    /// Where joints and the ends of links can be taken hold of.
+    pub(super) fn handles(&mut self, angles_rad: &[f64]) -> (Vec<JointHandle>, Vec<EndHandle>) {
+        self.place(angles_rad);
+        let chain = &self.model.chain;
+        let joints = chain.joints().iter().zip(&self.placed).map(|(joint, placed)| {
+            let axis = match joint.kind {
+                JointKind::Revolute { axis } => placed.rotation * axis,
+                JointKind::Fixed => DVec3::ZERO,
+            };
+            JointHandle {
+                at: placed.translation,
+                axis,
+            }
+        });
+        let ends = self.model.links.iter().filter(|link| link.joint.is_some());
+        let ends = ends.map(|link| EndHandle {
+            link: link.name.clone(),
+            at: self.frame(link).transform_point(link.end),
+        });
+        (joints.collect(), ends.collect())
+    }
+
+    fn place(&mut self, angles_rad: &[f64]) {
+        let model = &self.model;
+        model
+            .chain
+            .place(&model.world_from_base, angles_rad, &mut self.placed);
+    }
+
+    fn frame(&self, link: &LinkOfModel) -> Rigid {
+        let joint = link.joint.and_then(|joint| self.placed.get(joint.index()));
+        joint.copied().unwrap_or(self.model.world_from_base)
+    }
 }
 
 #[cfg(test)]
@@ -108,7 +98,7 @@ mod tests {
     fn the_marionette_stands_on_two_feet() {
         let profiles = Profiles::builtin();
         let profile = profiles.puppet("marionette").expect("it is shipped");
-        let mut bones = Bones::new(profile).expect("it can be drawn");
+        let mut bones = Bones::new(Arc::new(Model::new(profile).expect("it can be drawn")));
         let at_rest = bones.at(&vec![0.0; profile.joints().count()]);
         let named = |link: &str| {
             at_rest[profile

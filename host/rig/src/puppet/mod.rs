@@ -5,6 +5,9 @@
 
 mod body;
 mod bones;
+mod mannequin;
+mod model;
+mod pose_view;
 mod runner;
 mod view;
 
@@ -14,16 +17,17 @@ use std::time::Duration;
 
 use device::clock::{Clock, Instant};
 use device_profiles::{ProfileError, Profiles, PuppetProfile};
-use motion::clip::Clip;
-use motion::{JointClip, Placed};
+use motion::{JointTrack, Placed};
 use player::{Order, Phase, PlayerConfig, Puppet, PuppetError, State};
 
 pub use body::{Body, BodyError, Follower, RestFrames};
 use bones::Bones;
+pub(crate) use mannequin::Mannequin;
+pub use model::Model;
+pub use pose_view::{EndHandle, JointHandle, PuppetPoseView};
 use runner::{Line, Runner};
 
 use crate::command::PuppetCommand;
-use crate::document::FigureDoc;
 use crate::ports::Ports;
 use crate::snapshot::{NoteLevel, PuppetView, TransportView};
 
@@ -86,9 +90,10 @@ pub(crate) struct Seat {
     bones: Option<Bones>,
     body: Option<Body>,
     follower: Option<Follower>,
+    /// Whether it follows what is on screen.
+    following: bool,
     /// Stop was pressed before there was a player.
     stopped: bool,
-    baked: Option<(Arc<Clip>, Arc<JointClip>)>,
     look_at: Instant,
     remarks: Vec<(NoteLevel, String)>,
 }
@@ -122,7 +127,7 @@ impl Seat {
                 }),
             })
             .collect::<Result<_, _>>()?;
-        let bones = Bones::new(&profile);
+        let bones = Model::new(&profile).ok().map(|model| Bones::new(Arc::new(model)));
         Ok(Self {
             profile,
             puppet,
@@ -133,34 +138,28 @@ impl Seat {
             bones,
             body: None,
             follower: None,
+            following: false,
             stopped: false,
-            baked: None,
             look_at: Instant::ZERO,
             remarks: Vec::new(),
         })
     }
 
-    /// Lets the puppet follow the show's figure from now on.
-    pub(crate) fn lead_by(&mut self, figure: &FigureDoc) -> Result<(), BodyError> {
-        let rest = figure.rest_frames();
-        self.body = None;
-        self.baked = None;
-        self.follower = None;
-        self.body = Some(Body::new(&self.profile, &figure.figure, rest.as_deref())?);
-        Ok(())
+    /// What is known of the puppet.
+    pub(crate) fn profile(&self) -> &PuppetProfile {
+        &self.profile
     }
 
-    /// Passes an order on, or says why not.
-    pub(crate) fn order(
-        &mut self,
-        order: &PuppetCommand,
-        clip: Option<&Arc<Clip>>,
-        timeline: &TransportView,
-    ) -> Result<(), String> {
-        if !matches!(
-            order,
-            PuppetCommand::Follow | PuppetCommand::Heartbeat | PuppetCommand::CompensateLag(_)
-        ) {
+    /// Whose joints follow the show's figure from now on.
+    pub(crate) fn lead_by(&mut self, body: Option<Body>) {
+        self.follower = None;
+        self.body = body;
+    }
+
+    /// Passes an order on, or says why not. Playing is ordered by [`Seat::play`].
+    pub(crate) fn order(&mut self, order: &PuppetCommand) -> Result<(), String> {
+        if !matches!(order, PuppetCommand::Heartbeat | PuppetCommand::CompensateLag(_)) {
+            self.following = *order == PuppetCommand::Follow;
             self.follower = None;
         }
         if let Runner::Waiting = self.runner {
@@ -172,16 +171,8 @@ impl Seat {
             }
         }
         let order = match order {
-            PuppetCommand::Arm => {
-                self.say_what_a_lost_host_means();
-                Order::Arm
-            }
-            PuppetCommand::Play => self.play(clip, timeline)?,
-            PuppetCommand::Follow => {
-                let body = self.body.as_ref().ok_or("the puppet has no figure to follow")?;
-                self.follower = Some(Follower::new(body));
-                return Ok(());
-            }
+            PuppetCommand::Arm => Order::Arm,
+            PuppetCommand::Play | PuppetCommand::Follow => return Ok(()),
             PuppetCommand::Hold => Order::Hold,
             PuppetCommand::Release => Order::Release,
             PuppetCommand::Stop => Order::Stop,
@@ -189,24 +180,13 @@ impl Seat {
             PuppetCommand::Heartbeat => Order::Heartbeat,
             PuppetCommand::CompensateLag(on) => Order::CompensateLag(*on),
         };
+        self.pass_on(order)
+    }
+
+    fn pass_on(&mut self, order: Order) -> Result<(), String> {
         self.runner
             .order(order)
             .map_err(|()| format!("puppet {}: {}", self.profile.name, self.missing()))
-    }
-
-    /// Said before torque comes on, since nobody can say it afterwards.
-    fn say_what_a_lost_host_means(&mut self) {
-        let models = self.puppet.without_watchdog();
-        if models.is_empty() {
-            return;
-        }
-        let words = format!(
-            "puppet {}: {} have no watchdog: if this program or the cable is lost they stand at their last goal, with \
-             torque on, until their power is cut or `dialrig servo release` reaches them",
-            self.profile.name,
-            models.join(" and ")
-        );
-        self.remarks.push((NoteLevel::Warning, words));
     }
 
     fn missing(&self) -> String {
@@ -217,47 +197,40 @@ impl Seat {
         )
     }
 
-    fn play(&mut self, clip: Option<&Arc<Clip>>, timeline: &TransportView) -> Result<Order, String> {
-        let clip = clip.ok_or("there is no clip to play; store keys first")?;
-        let body = self.body.as_ref().ok_or("the puppet has no figure to follow")?;
-        let baked = match &self.baked {
-            Some((of, baked)) if Arc::ptr_eq(of, clip) => Arc::clone(baked),
-            _ => {
-                let (baked, error_rad) = body
-                    .bake(clip, BAKE_PERIOD_SECS)
-                    .map_err(|error| error.to_string())?;
-                let words = format!(
-                    "puppet {}: follows within {:.1} degrees of the figure",
-                    self.profile.name,
-                    error_rad.to_degrees()
-                );
-                self.remarks.push((NoteLevel::Info, words));
-                let baked = Arc::new(baked);
-                self.baked = Some((Arc::clone(clip), Arc::clone(&baked)));
-                baked
-            }
-        };
+    /// Plays a motion from the present animation time, or from its beginning where that is at the end.
+    pub(crate) fn play(&mut self, track: &JointTrack, timeline: &TransportView) -> Result<(), String> {
+        let clip = track.bake(BAKE_PERIOD_SECS).map_err(|error| error.to_string())?;
         let at_end = timeline.secs >= timeline.end_secs;
         let from_secs = if at_end {
             0.0
         } else {
             (timeline.secs - timeline.start_secs).max(0.0)
         };
-        Ok(Order::Play {
-            clip: baked,
+        self.pass_on(Order::Play {
+            clip: Arc::new(clip),
             from_secs,
             speed: timeline.speed,
             looped: timeline.looped,
         })
     }
 
-    /// The figure's pose now, for a puppet that follows it live.
-    pub(crate) fn follow(&mut self, placed: &[Placed]) {
-        if let Some(follower) = &mut self.follower {
-            let angles: Arc<[f64]> = follower.follow(placed).into();
-            // A full queue means a newer pose is on its way anyway.
-            let _ = self.runner.order(Order::Follow(angles));
+    /// What is on screen now, for a puppet that follows it live: its own pose where it is posed itself, else the
+    /// figure's.
+    pub(crate) fn follow(&mut self, placed: Option<&[Placed]>, posed_rad: Option<&[f64]>) {
+        if !self.following {
+            return;
         }
+        let angles: Arc<[f64]> = match (posed_rad, placed) {
+            (Some(posed_rad), _) => posed_rad.into(),
+            (None, Some(placed)) => match (&mut self.follower, &self.body) {
+                (Some(follower), _) => follower.follow(placed).into(),
+                (follower @ None, Some(body)) => follower.insert(Follower::new(body)).follow(placed).into(),
+                (None, None) => return,
+            },
+            (None, None) => return,
+        };
+        // A full queue means a newer pose is on its way anyway.
+        let _ = self.runner.order(Order::Follow(angles));
     }
 
     /// One step: opens lines that are missing, ticks the player if the rig does, and says what happened.
@@ -283,8 +256,7 @@ impl Seat {
                     .push((NoteLevel::Warning, format!("puppet {}: {why}", self.profile.name))),
             }
         }
-        self.runner
-            .advance(now, &self.lines, &self.profile, ports, &mut self.remarks);
+        self.runner.advance(now, &self.lines, ports, &mut self.remarks);
         std::mem::take(&mut self.remarks)
     }
 
@@ -292,8 +264,7 @@ impl Seat {
     pub(crate) fn performed_secs(&self) -> Option<f64> {
         let mut secs = None;
         self.runner.report(&mut |report| {
-            let runs =
-                report.state == State::Playing && report.phase == Phase::Running && self.follower.is_none();
+            let runs = report.state == State::Playing && report.phase == Phase::Running && !self.following;
             secs = report.clip_secs.filter(|_| runs);
         });
         secs

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Rig;
-use crate::command::{Command, EditCommand, PoseCommand, PuppetCommand, ViewCommand};
+use crate::command::{Command, EditCommand, PoseCommand, ViewCommand};
 use crate::document;
 use crate::parameters::Request;
 use crate::snapshot::NoteLevel;
@@ -41,6 +41,8 @@ impl Rig {
             }
             Command::View(view) => self.view.apply(view),
             Command::Puppet(order) => self.order_puppet(order),
+            Command::PuppetPose(pose) => self.pose_puppet(pose),
+            Command::SlowToFit => self.slow_to_fit(),
             Command::Save => self.save(),
         };
         if let Err(why) = done {
@@ -81,8 +83,7 @@ impl Rig {
         use crate::command::TransportCommand::{Nudge, Seek};
         let t = self.timeline.view();
         let inside = (t.start_secs..=t.end_secs).contains(&t.secs);
-        let by_hand = self.stage.as_ref().is_some_and(crate::stage::Stage::posing);
-        if inside || !by_hand || !matches!(command, Seek { .. } | Nudge { .. }) {
+        if inside || !self.by_hand() || !matches!(command, Seek { .. } | Nudge { .. }) {
             self.show_clip();
         }
     }
@@ -104,12 +105,14 @@ impl Rig {
 
     fn edit(&mut self, edit: &EditCommand) -> Result<(), String> {
         let pose = self.stage.as_ref().map(|stage| stage.pose().clone());
+        let of_joints = self.store_joints(edit);
+        let edit = of_joints.as_ref().unwrap_or(edit);
         let edited =
             document::apply(self.history.present(), edit, pose.as_ref()).map_err(|e| e.to_string())?;
-        if matches!(edit, EditCommand::StoreKey { .. })
-            && let Some(stage) = &mut self.stage
-        {
-            stage.stored();
+        match (edit, &mut self.stage, &mut self.rehearsing) {
+            (EditCommand::StoreKey { .. }, Some(stage), _) => stage.stored(),
+            (EditCommand::StoreJoints { .. }, _, Some(rehearsing)) => rehearsing.stored(),
+            _ => {}
         }
         self.change(edited.show, edited.words, edited.gesture);
         self.set_clip();
@@ -143,7 +146,8 @@ impl Rig {
     fn changed_from(&mut self, before: &Arc<document::Show>) {
         let show = Arc::clone(self.history.present());
         self.network_changed_from(before);
-        if show.figure == before.figure && show.clips == before.clips && show.clip == before.clip {
+        let clips = show.clips == before.clips && show.joint_clips == before.joint_clips;
+        if show.figure == before.figure && clips && show.clip == before.clip {
             return;
         }
         if show.figure != before.figure {
@@ -153,14 +157,10 @@ impl Rig {
             // What was undone is to be seen.
             stage.stored();
         }
+        if let Some(rehearsing) = &mut self.rehearsing {
+            rehearsing.stored();
+        }
         self.set_clip();
-    }
-
-    fn order_puppet(&mut self, order: &PuppetCommand) -> Result<(), String> {
-        let Some(puppet) = &mut self.puppet else {
-            return Err("this show has no puppet; name one in show.toml or with --puppet".into());
-        };
-        puppet.order(order, self.clip.as_ref(), self.timeline.view())
     }
 
     fn save(&mut self) -> Result<(), String> {

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use motion::clip::Clip;
+use motion::Kinetics;
 
-use super::Rig;
+use super::{Rig, rehearse};
 use crate::snapshot::{KeyView, KineticsView, Snapshot};
 
 /// Samples of the kinetic curve for drawing.
@@ -16,8 +16,7 @@ impl Rig {
         let network = self.network_look();
         let key_here = self.timeline.key_here();
         let show = self.history.present();
-        let clip_doc = show.current_clip();
-        let keys = clip_doc.map(|c| c.times_secs()).unwrap_or_default();
+        let keys = show.key_times_secs();
         let mut kinetics = self.kinetics_view.clone();
         kinetics.selected = (!kinetics.coefficients.is_empty()).then_some(self.coefficient);
         Snapshot {
@@ -44,6 +43,8 @@ impl Rig {
                 .desk
                 .view(self.wiring.panel(), now_secs, self.inputs.simulated_desk()),
             puppet: self.puppet.as_mut().map(|puppet| puppet.view(self.now)),
+            puppet_pose: self.rehearsing.as_mut().map(rehearse::Rehearsing::pose_view),
+            feasibility: self.rehearsing.as_ref().map(rehearse::Rehearsing::feasibility),
             devices: self.inputs.view(),
             undo: self.history.undo_words().map(str::to_owned),
             redo: self.history.redo_words().map(str::to_owned),
@@ -54,12 +55,11 @@ impl Rig {
 }
 
 /// The kinetic spline as it is drawn.
-pub(super) fn kinetics(clip: Option<&Clip>) -> KineticsView {
-    let Some(clip) = clip else {
+pub(super) fn kinetics(kinetics: Option<&Kinetics>) -> KineticsView {
+    let Some(kinetics) = kinetics else {
         return KineticsView::default();
     };
-    let kinetics = clip.kinetics();
-    let (start_secs, span_secs) = (clip.start_secs(), clip.duration_secs());
+    let (start_secs, span_secs) = (kinetics.domain().start, kinetics.domain().length());
     let curve = (0..CURVE_SAMPLES)
         .map(|i| {
             let secs = start_secs + span_secs * i as f64 / (CURVE_SAMPLES - 1) as f64;

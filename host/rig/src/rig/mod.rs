@@ -7,6 +7,7 @@
 mod apply;
 mod look;
 mod network;
+mod rehearse;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -30,6 +31,7 @@ use crate::snapshot::{NoteLevel, Snapshot, ViewState};
 use crate::stage::Stage;
 use crate::timeline::Timeline;
 use crate::wiring::{Wiring, shapes};
+use rehearse::Rehearsing;
 
 /// Longest time one step may cover; a host that slept longer plays on from where it was.
 const ELAPSED_SECS_MAX: f64 = 0.25;
@@ -82,6 +84,7 @@ pub struct Rig {
     desk: Desk,
     inputs: Inputs,
     puppet: Option<Seat>,
+    rehearsing: Option<Rehearsing>,
     coefficient: usize,
     notes: Notes,
     began: Instant,
@@ -106,6 +109,7 @@ impl Rig {
         let puppet = puppet
             .map(|spec| Seat::new(spec, &profiles, Arc::clone(&clock)))
             .transpose()?;
+        let rehearsing = Rehearsing::of(puppet.as_ref(), &show, &profiles);
         let (wiring, remarks) = Wiring::load(&show);
         let began = clock.now();
         let history = History::new(show);
@@ -127,6 +131,7 @@ impl Rig {
             desk: Desk::default(),
             inputs,
             puppet,
+            rehearsing,
             coefficient: 1,
             notes: Notes::default(),
             began,
@@ -218,17 +223,17 @@ impl Rig {
     }
 
     fn drive_puppet(&mut self) {
+        self.rehearse();
         let Some(puppet) = &mut self.puppet else { return };
-        if let Some(stage) = &self.stage {
-            puppet.follow(stage.placed());
-        }
+        let posed = self.rehearsing.as_ref().and_then(Rehearsing::posed);
+        puppet.follow(self.stage.as_ref().map(Stage::placed), posed);
         let secs = self.now.since(self.began).as_secs_f64();
         for (level, remark) in puppet.advance(self.now, self.ports.as_mut()) {
             self.notes.add(secs, level, remark);
         }
         // The figure on screen goes along with what the puppet performs, unless a hand is posing it.
         let performed_secs = puppet.performed_secs();
-        let by_hand = self.stage.as_ref().is_some_and(Stage::posing);
+        let by_hand = self.by_hand();
         if let Some(performed_secs) = performed_secs.filter(|_| !by_hand)
             && self.timeline.go_along(performed_secs)
         {
@@ -256,17 +261,13 @@ impl Rig {
             }
             Stage::new(Arc::clone(&doc.figure), Arc::new(drawn))
         });
-        if let (Some(puppet), Some(doc)) = (&mut self.puppet, &self.history.present().figure)
-            && let Err(error) = puppet.lead_by(doc)
-        {
-            let secs = self.now.since(self.began).as_secs_f64();
-            self.notes.add(secs, NoteLevel::Warning, error.to_string());
-        }
+        self.lead_puppet();
     }
 
     /// Builds the playable form of the clip being edited and shows it.
     fn set_clip(&mut self) {
         let show = Arc::clone(self.history.present());
+        let of_joints = self.set_joint_clip(&show);
         let built = match (show.current_clip(), &show.figure) {
             (Some(doc), Some(figure)) => doc.clip(&figure.figure),
             _ => Ok(None),
@@ -279,20 +280,34 @@ impl Rig {
                 self.note(NoteLevel::Error, format!("clip {}: {error}", show.clip));
             }
         }
-        self.timeline
-            .set_keys(show.current_clip().map(|c| c.times_secs()).unwrap_or_default());
-        self.kinetics_view = look::kinetics(self.clip.as_deref());
+        self.rehearse_clip(&show);
+        self.timeline.set_keys(show.key_times_secs());
+        let kinetics = self
+            .clip
+            .as_ref()
+            .map(|clip| clip.kinetics())
+            .or(of_joints.as_ref());
+        self.kinetics_view = look::kinetics(kinetics);
         let last = self.kinetics_view.coefficients.len().saturating_sub(2).max(1);
         self.coefficient = self.coefficient.clamp(1, last);
-        if self.stage.as_ref().is_some_and(|stage| !stage.posing()) {
+        if !self.by_hand() {
             self.show_clip();
         }
+    }
+
+    /// Whether a hand is posing the figure or the puppet.
+    fn by_hand(&self) -> bool {
+        self.stage.as_ref().is_some_and(Stage::posing)
+            || self.rehearsing.as_ref().is_some_and(Rehearsing::by_hand)
     }
 
     /// Shows the clip's pose at the present time.
     fn show_clip(&mut self) {
         if let (Some(stage), Some(clip)) = (&mut self.stage, &self.clip) {
             stage.show_clip(clip, self.timeline.secs());
+        }
+        if let Some(rehearsing) = &mut self.rehearsing {
+            rehearsing.show(self.timeline.secs());
         }
     }
 

@@ -98,6 +98,7 @@ impl Check {
                 let there = seen.undo.as_deref().unwrap_or("");
                 fits(there == text, || format!("undo is \"{there}\""))
             }
+            Self::Calibrated(expected) => expected.judge(evidence.calibrated),
             Self::Watchdogs { bus, bound } => watchdogs(evidence, bus, *bound),
             Self::Shaft { joint, part, near } => shaft(evidence, joint, *part, *near),
             Self::Register { joint, role, near } => register(evidence, joint, *role, *near),

@@ -7,8 +7,10 @@ mod servos;
 mod truth;
 
 use device_profiles::Role;
+use rig::calibration::Proposal;
 use rig::{DeviceHealth, PuppetState, Snapshot};
 
+use super::calibrating::Calibrated;
 use crate::stand::{JointTruth, Stand};
 
 /// Words that begin an expectation.
@@ -36,6 +38,7 @@ pub(in crate::scenario) const SUBJECTS: &[&str] = &[
     "shaft",
     "register",
     "life",
+    "calibration",
 ];
 
 /// A number and how near to it is near enough.
@@ -151,6 +154,7 @@ pub(in crate::scenario) enum Check {
         bound: Bound,
     },
     Undo(String),
+    Calibrated(Calibrated),
     Watchdogs {
         bus: String,
         bound: Bound,
@@ -184,6 +188,8 @@ pub(in crate::scenario) struct Evidence<'a> {
     pub(in crate::scenario) past: [&'a [JointTruth]; 2],
     /// The same, when they were marked.
     pub(in crate::scenario) mark: &'a [JointTruth],
+    /// What the last calibration came to.
+    pub(in crate::scenario) calibrated: &'a [Proposal],
 }
 
 const STATES: [(&str, PuppetState); 5] = [

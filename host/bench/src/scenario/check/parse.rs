@@ -3,6 +3,7 @@
 use super::{
     Aspect, Bound, COUNTERS, Check, Conduct, EVENTS, HEALTHS, Near, SHAFT_PARTS, STATES, SUBJECTS, VIEW_PARTS,
 };
+use crate::scenario::calibrating::Calibrated;
 use crate::scenario::words::{Parsed, Words};
 
 impl Near {
@@ -130,6 +131,7 @@ impl Check {
                     bound: Bound::parse(words)?,
                 })
             }
+            "calibration" => Calibrated::parse(words).map(Self::Calibrated),
             "torque" => torque(words),
             "shaft" | "register" | "life" => truth(subject, words),
             "servos" => conduct(words).map(|conduct| Self::Servos { joint: None, conduct }),

@@ -1,5 +1,6 @@
 //! `dialrig servo`: looking after servos. Nothing here can move one.
 
+mod calibrate;
 mod doctor;
 mod monitor;
 mod ping;
@@ -41,6 +42,7 @@ enum Command {
     Monitor(monitor::Args),
     Release(release::Args),
     Doctor(doctor::Args),
+    Calibrate(calibrate::Args),
 }
 
 /// Where the line is.
@@ -106,5 +108,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Command::Monitor(args) => monitor::run(args, console),
         Command::Release(args) => release::run(args, console),
         Command::Doctor(args) => doctor::run(args, console),
+        Command::Calibrate(args) => calibrate::run(args, console),
     }
 }

@@ -2,14 +2,17 @@
 //!
 //! A key names every link with its direction; twist and length stand only where they say something. Clips
 //! of very many keys use the form of [`rows`] instead. Version 0 counted frames instead of seconds and gave
-//! z-y-z angles instead of directions; it is read, never written.
+//! z-y-z angles instead of directions; it is read, never written. Clips of a puppet's own joints have a form of
+//! their own, see [`joints`].
 
 mod bind;
+mod joints;
 mod read;
 mod rows;
 mod version_0;
 mod write;
 
+pub(super) use joints::{is_of_joints, read_joints, write_joints};
 pub(super) use read::read;
 pub(super) use write::write;
 

@@ -30,7 +30,8 @@ pub(in crate::document) fn read(
     } else {
         read_1(file, found)
     };
-    check_times(source, &text.keys, found);
+    let times: Vec<(usize, f64)> = text.keys.iter().map(|key| (key.at, key.secs)).collect();
+    check_times(source, &times, found);
     let mut clip = text.laws;
     clip.keys = match figure {
         Some(figure) => bind::bind(source, &text.keys, figure, found),
@@ -57,16 +58,8 @@ fn read_1<'t>(mut file: Fields<'t>, found: &mut Findings) -> ClipText<'t> {
     if let Some(law) = file.optional("twist").and_then(|v| v.choice(&TWIST_LAWS, found)) {
         laws.twist_law = law;
     }
-    if let Some(mode) = file.optional("kinetics").and_then(|v| v.choice(&KINETICS, found)) {
-        laws.kinetics = mode;
-    }
-    laws.keep_forward = file
-        .optional("keep_forward")
-        .and_then(|v| v.boolean(found))
-        .unwrap_or(false);
-    if let Some(pairs) = file.optional("adjust") {
-        text.adjust_at = pairs.at;
-        laws.coefficient_edits = adjustments(pairs, found);
+    if let Some(at) = read_timing(&mut file, laws, found) {
+        text.adjust_at = at;
     }
     laws.frame_secs = file.optional("frame_secs").and_then(|v| v.above_zero(found));
     let keys = file
@@ -87,6 +80,24 @@ fn read_1<'t>(mut file: Fields<'t>, found: &mut Findings) -> ClipText<'t> {
         None => keys.into_iter().filter_map(|key| read_key(key, found)).collect(),
     };
     text
+}
+
+/// What clips of every kind say about time; where the adjustments stand.
+pub(super) fn read_timing<K>(
+    file: &mut Fields<'_>,
+    laws: &mut ClipDoc<K>,
+    found: &mut Findings,
+) -> Option<usize> {
+    if let Some(mode) = file.optional("kinetics").and_then(|v| v.choice(&KINETICS, found)) {
+        laws.kinetics = mode;
+    }
+    laws.keep_forward = file
+        .optional("keep_forward")
+        .and_then(|v| v.boolean(found))
+        .unwrap_or(false);
+    let pairs = file.optional("adjust")?;
+    laws.coefficient_edits = adjustments(pairs, found);
+    Some(pairs.at)
 }
 
 pub(super) fn too_many(keys: &[Placed<'_>], found: &mut Findings) -> bool {
@@ -162,17 +173,17 @@ fn direction(value: Placed<'_>, found: &mut Findings) -> Option<DVec3> {
     unit
 }
 
-/// Times must increase, and not by next to nothing.
-fn check_times(source: &Source, keys: &[KeyText<'_>], found: &mut Findings) {
-    for key in keys.iter().filter(|key| key.secs.abs() > SECS_MAX) {
-        let message = format!("key at {} s; times lie within {SECS_MAX} s of 0", key.secs);
-        found.error(source.error(key.at, message));
+/// Times must increase, and not by next to nothing; each with its place.
+pub(super) fn check_times(source: &Source, keys: &[(usize, f64)], found: &mut Findings) {
+    for &(at, secs) in keys.iter().filter(|(_, secs)| secs.abs() > SECS_MAX) {
+        let message = format!("key at {secs} s; times lie within {SECS_MAX} s of 0");
+        found.error(source.error(at, message));
     }
     for pair in keys.windows(2) {
-        if pair[1].secs - pair[0].secs < KEY_GAP_SECS_MIN {
-            let (before, secs) = (pair[0].secs, pair[1].secs);
+        let ((_, before), (at, secs)) = (pair[0], pair[1]);
+        if secs - before < KEY_GAP_SECS_MIN {
             let message = format!("key at {secs} s follows one at {before} s; times must increase");
-            found.error(source.error(pair[1].at, message));
+            found.error(source.error(at, message));
         }
     }
 }

@@ -20,21 +20,7 @@ pub(in crate::document) fn write(clip: &ClipDoc, figure: &Figure) -> String {
         &mut out,
         format_args!("twist = \"{}\"", word(&TWIST_LAWS, clip.twist_law)),
     );
-    line(
-        &mut out,
-        format_args!("kinetics = \"{}\"", word(&KINETICS, clip.kinetics)),
-    );
-    if clip.keep_forward {
-        line(&mut out, format_args!("keep_forward = true"));
-    }
-    if !clip.coefficient_edits.is_empty() {
-        let pairs: Vec<String> = clip
-            .coefficient_edits
-            .iter()
-            .map(|(i, by)| format!("[{i}, {by:?}]"))
-            .collect();
-        line(&mut out, format_args!("adjust = [{}]", pairs.join(", ")));
-    }
+    write_timing(clip, &mut out);
     if let Some(secs) = clip.frame_secs {
         line(&mut out, format_args!("frame_secs = {secs:?}"));
     }
@@ -46,6 +32,25 @@ pub(in crate::document) fn write(clip: &ClipDoc, figure: &Figure) -> String {
         }
     }
     out
+}
+
+/// What clips of every kind say about time.
+pub(super) fn write_timing<K>(clip: &ClipDoc<K>, out: &mut String) {
+    line(
+        out,
+        format_args!("kinetics = \"{}\"", word(&KINETICS, clip.kinetics)),
+    );
+    if clip.keep_forward {
+        line(out, format_args!("keep_forward = true"));
+    }
+    if !clip.coefficient_edits.is_empty() {
+        let pairs: Vec<String> = clip
+            .coefficient_edits
+            .iter()
+            .map(|(i, by)| format!("[{i}, {by:?}]"))
+            .collect();
+        line(out, format_args!("adjust = [{}]", pairs.join(", ")));
+    }
 }
 
 fn write_key(key: &FigureKey, figure: &Figure, out: &mut String) {
@@ -74,7 +79,7 @@ fn write_key(key: &FigureKey, figure: &Figure, out: &mut String) {
 }
 
 /// Degrees, rounded where that is only the noise of the conversion: 90, not 90.00000000000001.
-fn degrees(angle_rad: f64) -> f64 {
+pub(super) fn degrees(angle_rad: f64) -> f64 {
     let exact = angle_rad.to_degrees();
     let round = (exact * 1e9).round() / 1e9;
     if (round.to_radians() - angle_rad).abs() <= angle_rad.abs() * 4.0 * f64::EPSILON {
@@ -84,7 +89,7 @@ fn degrees(angle_rad: f64) -> f64 {
     }
 }
 
-fn line(out: &mut String, text: std::fmt::Arguments<'_>) {
+pub(super) fn line(out: &mut String, text: std::fmt::Arguments<'_>) {
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{text}");
 }

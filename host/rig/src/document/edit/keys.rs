@@ -1,11 +1,12 @@
 //! Keys stored, moved, copied and deleted. They stay apart and in order.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use motion::{FigureKey, FigurePose, LinkPose};
+use motion::{FigureKey, FigurePose, JointKey, LinkPose};
 
-use super::{EditError, Edited, current, done};
-use crate::document::clip::ClipDoc;
+use super::{EditError, Edited, Said, done};
+use crate::document::clip::{ClipDoc, JointClipDoc, Keyed};
 use crate::document::limits::{KEY_GAP_SECS_MIN, KEYS_MAX, SECS_MAX};
 use crate::document::show::Show;
 
@@ -20,12 +21,12 @@ enum Place {
     Free(usize),
 }
 
-fn place_of(clip: &ClipDoc, secs: f64) -> Result<Place, EditError> {
+fn place_of<K: Keyed>(clip: &ClipDoc<K>, secs: f64) -> Result<Place, EditError> {
     check_time(secs)?;
-    let near = |key: &Arc<FigureKey>| (key.secs - secs).abs() < KEY_GAP_SECS_MIN;
+    let near = |key: &Arc<K>| (key.secs() - secs).abs() < KEY_GAP_SECS_MIN;
     Ok(match clip.keys.iter().position(near) {
         Some(place) => Place::Taken(place),
-        None => Place::Free(clip.keys.partition_point(|key| key.secs < secs)),
+        None => Place::Free(clip.keys.partition_point(|key| key.secs() < secs)),
     })
 }
 
@@ -37,7 +38,7 @@ fn check_time(secs: f64) -> Result<(), EditError> {
     }
 }
 
-fn key_of(clip: &ClipDoc, key: usize) -> Result<&FigureKey, EditError> {
+fn key_of<K>(clip: &ClipDoc<K>, key: usize) -> Result<&K, EditError> {
     let count = clip.keys.len();
     clip.keys
         .get(key)
@@ -46,7 +47,7 @@ fn key_of(clip: &ClipDoc, key: usize) -> Result<&FigureKey, EditError> {
 }
 
 /// Adds a key. Kinetic adjustments belong to the coefficients of the old keys and go.
-fn insert(clip: &mut ClipDoc, place: usize, key: FigureKey) -> Result<(), EditError> {
+fn insert<K>(clip: &mut ClipDoc<K>, place: usize, key: K) -> Result<(), EditError> {
     if clip.keys.len() >= KEYS_MAX {
         return Err(EditError::TooManyKeys);
     }
@@ -67,22 +68,68 @@ pub(super) fn store(show: &Show, secs: f64, pose: Option<&FigurePose>) -> Result
         return Err(EditError::BadPose);
     }
     let mut show = show.clone();
-    if show.current_clip().is_none() {
+    if show.current_clip().is_none() && show.current_joint_clip().is_none() {
         FIRST_CLIP.clone_into(&mut show.clip);
     }
-    let mut clip = current(&show).unwrap_or_default();
-    let pose = pose.clone();
-    match place_of(&clip, secs)? {
+    if show.current_joint_clip().is_some() {
+        return Err(EditError::NotOfFigure { name: show.clip });
+    }
+    let mut clip = show
+        .current_clip()
+        .map(|clip| ClipDoc::clone(clip))
+        .unwrap_or_default();
+    let said = put(
+        &mut clip,
+        FigureKey {
+            secs,
+            pose: pose.clone(),
+        },
+    )?;
+    done(&show, clip, said)
+}
+
+/// Stores a pose of the puppet's joints, or replaces that of the key that is there; begins a clip if there is none.
+pub(super) fn store_joints(
+    show: &Show,
+    secs: f64,
+    angles_rad: &BTreeMap<String, f64>,
+) -> Result<Edited, EditError> {
+    if angles_rad.is_empty() || !angles_rad.values().all(|angle| angle.is_finite()) {
+        return Err(EditError::BadJoints);
+    }
+    if show.current_clip().is_some() {
+        return Err(EditError::NotOfJoints {
+            name: show.clip.clone(),
+        });
+    }
+    let mut show = show.clone();
+    if show.current_joint_clip().is_none() {
+        FIRST_CLIP.clone_into(&mut show.clip);
+    }
+    let mut clip = show
+        .current_joint_clip()
+        .map(|clip| JointClipDoc::clone(clip))
+        .unwrap_or_default();
+    let angles_rad = angles_rad.clone();
+    let said = put(&mut clip, JointKey { secs, angles_rad })?;
+    done(&show, clip, said)
+}
+
+/// Adds a key, or puts its pose into the key that is there.
+fn put<K: Keyed>(clip: &mut ClipDoc<K>, key: K) -> Result<Said, EditError> {
+    let secs = key.secs();
+    let words = match place_of(clip, secs)? {
         Place::Taken(place) => {
-            let secs = clip.keys[place].secs;
-            clip.keys[place] = Arc::new(FigureKey { secs, pose });
-            done(&show, clip, format!("Change key at {secs:.2} s"), None)
+            let secs = clip.keys[place].secs();
+            clip.keys[place] = Arc::new(key.at(secs));
+            format!("Change key at {secs:.2} s")
         }
         Place::Free(place) => {
-            insert(&mut clip, place, FigureKey { secs, pose })?;
-            done(&show, clip, format!("Store key at {secs:.2} s"), None)
+            insert(clip, place, key)?;
+            format!("Store key at {secs:.2} s")
         }
-    }
+    };
+    Ok(Said { words, gesture: None })
 }
 
 fn is_sound(link: &LinkPose) -> bool {
@@ -91,20 +138,19 @@ fn is_sound(link: &LinkPose) -> bool {
 }
 
 /// Takes a key away.
-pub(super) fn delete(show: &Show, key: usize) -> Result<Edited, EditError> {
-    let mut clip = current(show)?;
-    let secs = key_of(&clip, key)?.secs;
+pub(super) fn delete<K: Keyed>(clip: &mut ClipDoc<K>, key: usize) -> Result<Said, EditError> {
+    let secs = key_of(clip, key)?.secs();
     clip.keys.remove(key);
     clip.coefficient_edits.clear();
-    done(show, clip, format!("Delete key at {secs:.2} s"), None)
+    let words = format!("Delete key at {secs:.2} s");
+    Ok(Said { words, gesture: None })
 }
 
 /// Gives a key another time between its neighbours; one gesture a key.
-pub(super) fn move_to(show: &Show, key: usize, secs: f64) -> Result<Edited, EditError> {
-    let mut clip = current(show)?;
-    let pose = key_of(&clip, key)?.pose.clone();
+pub(super) fn move_to<K: Keyed>(clip: &mut ClipDoc<K>, key: usize, secs: f64) -> Result<Said, EditError> {
+    let moved = key_of(clip, key)?.at(secs);
     check_time(secs)?;
-    let time = |place: Option<usize>| place.and_then(|place| clip.keys.get(place)).map(|key| key.secs);
+    let time = |place: Option<usize>| place.and_then(|place| clip.keys.get(place)).map(|key| key.secs());
     let after_secs = time(key.checked_sub(1)).unwrap_or(-SECS_MAX - KEY_GAP_SECS_MIN);
     let before_secs = time(key.checked_add(1)).unwrap_or(SECS_MAX + KEY_GAP_SECS_MIN);
     if secs - after_secs < KEY_GAP_SECS_MIN || before_secs - secs < KEY_GAP_SECS_MIN {
@@ -114,23 +160,20 @@ pub(super) fn move_to(show: &Show, key: usize, secs: f64) -> Result<Edited, Edit
             before_secs,
         });
     }
-    clip.keys[key] = Arc::new(FigureKey { secs, pose });
-    let gesture = format!("move key {key}");
-    done(
-        show,
-        clip,
-        format!("Move key {key} to {secs:.2} s"),
-        Some(gesture),
-    )
+    clip.keys[key] = Arc::new(moved);
+    Ok(Said {
+        words: format!("Move key {key} to {secs:.2} s"),
+        gesture: Some(format!("move key {key}")),
+    })
 }
 
 /// Puts a key's pose at another time as well.
-pub(super) fn copy(show: &Show, key: usize, secs: f64) -> Result<Edited, EditError> {
-    let mut clip = current(show)?;
-    let pose = key_of(&clip, key)?.pose.clone();
-    let Place::Free(place) = place_of(&clip, secs)? else {
+pub(super) fn copy<K: Keyed>(clip: &mut ClipDoc<K>, key: usize, secs: f64) -> Result<Said, EditError> {
+    let copied = key_of(clip, key)?.at(secs);
+    let Place::Free(place) = place_of(clip, secs)? else {
         return Err(EditError::TimeTaken { secs });
     };
-    insert(&mut clip, place, FigureKey { secs, pose })?;
-    done(show, clip, format!("Copy key {key} to {secs:.2} s"), None)
+    insert(clip, place, copied)?;
+    let words = format!("Copy key {key} to {secs:.2} s");
+    Ok(Said { words, gesture: None })
 }
