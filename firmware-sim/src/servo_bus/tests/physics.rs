@@ -1,6 +1,7 @@
 //! The motor behind a real shaft: what its maker prints, what a hand and a weight do, and that it repeats.
 
 use super::*;
+use crate::servo_bus::reg::Reg;
 use std::f64::consts::TAU;
 
 const RAD: f64 = TAU / 4096.0;
@@ -266,4 +267,39 @@ fn the_same_story_comes_out_the_same_however_it_is_asked_for() {
             .collect::<Vec<_>>()
     };
     assert_eq!(play(900_000), play(777));
+}
+
+#[test]
+fn every_model_gets_there_and_stands() {
+    let profiles = Profiles::builtin();
+    let mut told = String::new();
+    for profile in profiles.servos() {
+        let mut bus = ServoBus::new(BusOptions {
+            baud: profile.bauds[0],
+            ..BusOptions::default()
+        });
+        let unit = Unit {
+            plant: PlantKind::Real,
+            ..Unit::new(1)
+        };
+        bus.add(profile, unit).expect("fits");
+        bus.set_line_baud(0, profile.bauds[0]);
+        let [low, high] = profile.position_counts;
+        let from = i64::from(profile.centre_counts);
+        let to = from + (high - low) / 5;
+        let servo = bus.servo_mut(1).expect("there");
+        servo.torque_on(0);
+        servo.table.set(Reg::GoalPosition, to);
+        servo.pursue(0);
+        bus.transmit(3_000_000, &mut Vec::new());
+        let servo = bus.servo(1).expect("there");
+        let off = servo.present_counts() - to;
+        let speed = servo.true_velocity_rad_per_s();
+        let top = servo.counters().speed_max_rad_per_s / servo.motor().no_load_rad_per_s;
+        told += &format!("{}: off {off}, speed {speed:.4}, top {top:.2}\n", profile.key);
+        // Friction leaves a little; without a punch nothing makes up for it.
+        let allowed = (profile.counts_per_turn / 120.0) as i64;
+        assert!(off.abs() <= allowed && speed.abs() < 0.01, "{told}");
+        assert!((0.15..1.3).contains(&top), "{told}");
+    }
 }
