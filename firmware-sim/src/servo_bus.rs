@@ -5,7 +5,8 @@
 //! `chain` lets them answer in turn; `servo` is one servo, made of its `table` with the registers it works with
 //! (`reg`, `coding`), its `goal`, its `motion` along a `trajectory`, its `plant` and the protection of its `hardware`;
 //! `execute`, `write` and `effect` are what an order does to it; `fault` is what may go wrong, `fault_run` when,
-//! `trouble` what it does to a servo; `beside` is what a person at the bench can do. Source: `docs/protocols/` and
+//! `trouble` what it does to a servo; `beside` is what a person at the bench can do and `spoken` what
+//! that person says. Source: `docs/protocols/` and
 //! the profiles (the makers' protocol pages and control tables).
 
 mod beside;
@@ -26,6 +27,7 @@ mod plant;
 mod refresh;
 mod reg;
 mod servo;
+mod spoken;
 mod summed;
 mod table;
 mod trajectory;
@@ -41,6 +43,7 @@ pub use dynamixel2::receiver::{BadCrc, InnerHeader};
 pub use fault::{BusFault, Fault, FaultError, FaultKind, ServoFault};
 pub use plant::{Hand, PlantKind};
 pub use servo::Servo;
+pub use spoken::Spoken;
 pub use unit::{Counters, Gaps, Precedence, Sag, Unit};
 pub use wire::{Adapter, WireTime};
 

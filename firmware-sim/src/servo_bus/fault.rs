@@ -5,7 +5,7 @@
 
 mod parse;
 mod text;
-mod words;
+pub(super) mod words;
 
 use device_profiles::Role;
 #[cfg(test)]

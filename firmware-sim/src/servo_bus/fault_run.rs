@@ -67,12 +67,14 @@ impl ServoBus {
     /// Why `fault` would do nothing on this bus, if so.
     pub fn misfit(&self, fault: &Fault) -> Option<String> {
         match fault.kind {
-            FaultKind::Servo(id, _) if self.servo(id).is_none() => {
-                let ids: Vec<String> = self.servos.iter().map(|servo| servo.id().to_string()).collect();
-                Some(format!("there is no servo {id}; there are: {}", ids.join(", ")))
-            }
+            FaultKind::Servo(id, _) if self.servo(id).is_none() => Some(self.nobody(id)),
             _ => None,
         }
+    }
+
+    pub(super) fn nobody(&self, id: u8) -> String {
+        let ids: Vec<String> = self.servos.iter().map(|servo| servo.id().to_string()).collect();
+        format!("there is no servo {id}; there are: {}", ids.join(", "))
     }
 
     /// Ends every fault that lasts or is still to come. What it has done stays done.

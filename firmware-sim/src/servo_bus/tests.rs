@@ -8,6 +8,7 @@ mod motion;
 mod page;
 mod physics;
 mod protocol1;
+mod spoken;
 mod timing;
 mod troubles;
 mod vectors;

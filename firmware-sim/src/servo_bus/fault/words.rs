@@ -8,14 +8,14 @@ use device_profiles::Role;
 const TIME_MAX_US: f64 = 1e12;
 
 /// The words of a fault, with the column of the one last taken.
-pub(super) struct Words<'a> {
+pub(in crate::servo_bus) struct Words<'a> {
     text: &'a str,
     rest: std::iter::Peekable<std::str::SplitWhitespace<'a>>,
     last: Option<&'a str>,
 }
 
 impl<'a> Words<'a> {
-    pub(super) fn new(text: &'a str) -> Self {
+    pub(in crate::servo_bus) fn new(text: &'a str) -> Self {
         Self {
             text,
             rest: text.split_whitespace().peekable(),
@@ -23,17 +23,17 @@ impl<'a> Words<'a> {
         }
     }
 
-    pub(super) fn next(&mut self) -> Option<&'a str> {
+    pub(in crate::servo_bus) fn next(&mut self) -> Option<&'a str> {
         self.last = self.rest.next();
         self.last
     }
 
-    pub(super) fn is_at_end(&mut self) -> bool {
+    pub(in crate::servo_bus) fn is_at_end(&mut self) -> bool {
         self.rest.peek().is_none()
     }
 
     /// Takes the next word if it is this one.
-    pub(super) fn take(&mut self, word: &str) -> bool {
+    pub(in crate::servo_bus) fn take(&mut self, word: &str) -> bool {
         let found = self.rest.next_if_eq(&word);
         if found.is_some() {
             self.last = found;
@@ -42,7 +42,7 @@ impl<'a> Words<'a> {
     }
 
     /// The next word, which must be one of these; `expected` says it in words.
-    pub(super) fn one_of(
+    pub(in crate::servo_bus) fn one_of(
         &mut self,
         known: &[&'static str],
         expected: &str,
@@ -61,38 +61,38 @@ impl<'a> Words<'a> {
             })
     }
 
-    pub(super) fn expect(&mut self, word: &'static str) -> Result<(), FaultError> {
+    pub(in crate::servo_bus) fn expect(&mut self, word: &'static str) -> Result<(), FaultError> {
         self.one_of(&[word], &format!("`{word}`")).map(|_| ())
     }
 
-    pub(super) fn a_number_follows(&mut self) -> bool {
+    pub(in crate::servo_bus) fn a_number_follows(&mut self) -> bool {
         self.rest
             .peek()
             .is_some_and(|word| word.starts_with(|first: char| first.is_ascii_digit() || first == '-'))
     }
 
-    pub(super) fn a_time_follows(&mut self) -> bool {
+    pub(in crate::servo_bus) fn a_time_follows(&mut self) -> bool {
         self.rest.peek().is_some_and(|word| micros(word).is_some())
     }
 
-    pub(super) fn id(&mut self) -> Result<u8, FaultError> {
+    pub(in crate::servo_bus) fn id(&mut self) -> Result<u8, FaultError> {
         let word = self.next().and_then(|word| word.parse().ok());
         word.filter(|&id| id <= ID_MAX)
             .ok_or_else(|| self.wrong("a number from 0 to 252"))
     }
 
     /// What a register is for, as profiles say it.
-    pub(super) fn role(&mut self) -> Result<Role, FaultError> {
+    pub(in crate::servo_bus) fn role(&mut self) -> Result<Role, FaultError> {
         let role = self.next().and_then(|word| word.parse().ok());
         role.ok_or_else(|| self.wrong("a register's role such as homing-offset"))
     }
 
     /// A place in the chain, counted from the host.
-    pub(super) fn place(&mut self) -> Result<usize, FaultError> {
+    pub(in crate::servo_bus) fn place(&mut self) -> Result<usize, FaultError> {
         self.id().map(usize::from)
     }
 
-    pub(super) fn whole<T: Copy + std::str::FromStr + PartialOrd + std::fmt::Display>(
+    pub(in crate::servo_bus) fn whole<T: Copy + std::str::FromStr + PartialOrd + std::fmt::Display>(
         &mut self,
         min: T,
         max: T,
@@ -104,7 +104,7 @@ impl<'a> Words<'a> {
     }
 
     /// A number in a range, with its unit right behind it or without one.
-    pub(super) fn number(&mut self, unit: &str, min: f64, max: f64) -> Result<f64, FaultError> {
+    pub(in crate::servo_bus) fn number(&mut self, unit: &str, min: f64, max: f64) -> Result<f64, FaultError> {
         let value = self.next().and_then(|word| {
             let bare = word.strip_suffix(unit).unwrap_or(word);
             bare.parse::<f64>().ok()
@@ -115,14 +115,14 @@ impl<'a> Words<'a> {
     }
 
     /// A number whose unit may not be left out, if the next word is one.
-    pub(super) fn with_unit(&mut self, unit: &str) -> Option<f64> {
+    pub(in crate::servo_bus) fn with_unit(&mut self, unit: &str) -> Option<f64> {
         let value = self.rest.peek()?.strip_suffix(unit)?.parse::<f64>().ok()?;
         self.next();
         Some(value)
     }
 
     /// A percentage, as parts per million.
-    pub(super) fn share(&mut self) -> Result<u32, FaultError> {
+    pub(in crate::servo_bus) fn share(&mut self) -> Result<u32, FaultError> {
         let value = self
             .next()
             .and_then(|word| word.strip_suffix('%'))
@@ -133,14 +133,14 @@ impl<'a> Words<'a> {
             .ok_or_else(|| self.wrong("a percentage such as 1%"))
     }
 
-    pub(super) fn micros(&mut self) -> Result<u64, FaultError> {
+    pub(in crate::servo_bus) fn micros(&mut self) -> Result<u64, FaultError> {
         self.next()
             .and_then(micros)
             .ok_or_else(|| self.wrong("a time such as 2s, 30ms or 500us"))
     }
 
     /// The word last taken is not `expected`.
-    pub(super) fn wrong(&self, expected: &str) -> FaultError {
+    pub(in crate::servo_bus) fn wrong(&self, expected: &str) -> FaultError {
         let (column, found) = match self.last {
             Some(word) => {
                 let offset = word.as_ptr() as usize - self.text.as_ptr() as usize;
