@@ -257,6 +257,7 @@ impl ServoBus {
                 .push(framing, idle_ns, byte.end_ns, value, &mut params)
             {
                 self.dispatch(byte.end_ns, heard, &params);
+                self.babble(byte.end_ns);
             }
         }
         self.params = params;

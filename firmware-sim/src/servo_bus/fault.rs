@@ -72,6 +72,8 @@ pub enum ServoFault {
     Late(u64),
     /// `flips P%`: this share of the bytes it sends has a bit turned, in parts per million.
     Flips(u32),
+    /// `babbles`: it puts bytes on the line that nobody asked for, after every instruction to anybody.
+    Babbles,
     /// `drift PPM`: its clock is this many millionths fast.
     Drift(i32),
 }

@@ -8,6 +8,10 @@ use super::wire::Adapter;
 /// Parts in a whole for the shares of faults.
 const MILLION: u32 = 1_000_000;
 
+/// How soon after an instruction a servo babbles, and how many bytes at most. Ours.
+const BABBLE_NS: u64 = 1_000_000;
+const BABBLE_BYTES: usize = 8;
+
 /// A fault that has been brought in.
 #[derive(Clone, Debug)]
 pub(super) struct Running {
@@ -251,6 +255,32 @@ impl ServoBus {
             }
         }
         byte
+    }
+
+    /// An instruction ended at `at_ns`: whoever babbles begins within a moment, whoever else speaks.
+    pub(super) fn babble(&mut self, at_ns: u64) {
+        for index in 0..self.faults.len() {
+            let running = &self.faults[index];
+            let struck = match running.fault.kind {
+                FaultKind::Servo(_, ServoFault::Babbles) | FaultKind::Everyone(ServoFault::Babbles)
+                    if running.lasts() =>
+                {
+                    running.struck.len()
+                }
+                _ => continue,
+            };
+            for nth in 0..struck {
+                let (place, _) = self.faults[index].struck[nth];
+                if self.servos[place].is_connected() {
+                    let start_ns = at_ns + self.random.u64(0..BABBLE_NS);
+                    let mut bytes = [0; BABBLE_BYTES];
+                    self.random.fill(&mut bytes);
+                    let count = self.random.usize(1..=BABBLE_BYTES);
+                    self.wire.servos_send(start_ns, &bytes[..count]);
+                }
+            }
+            self.faults[index].over = self.faults[index].fault.once;
+        }
     }
 
     /// Until when the host gets nothing, if it gets nothing now.

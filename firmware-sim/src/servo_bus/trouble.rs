@@ -42,7 +42,7 @@ impl Servo {
                 return i64::from(std::mem::replace(&mut self.unit.drift_ppm, ppm));
             }
             // These strike its bytes on their way (`fault_run`).
-            ServoFault::Drop(_) | ServoFault::Late(_) | ServoFault::Flips(_) => {}
+            ServoFault::Drop(_) | ServoFault::Late(_) | ServoFault::Flips(_) | ServoFault::Babbles => {}
         }
         0
     }
@@ -83,7 +83,8 @@ impl Servo {
             | ServoFault::HardwareError(_)
             | ServoFault::Drop(_)
             | ServoFault::Late(_)
-            | ServoFault::Flips(_) => {}
+            | ServoFault::Flips(_)
+            | ServoFault::Babbles => {}
         }
     }
 

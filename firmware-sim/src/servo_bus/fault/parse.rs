@@ -20,7 +20,8 @@ const FIRST: &[&str] = &[
 /// Words that may follow `servo N`.
 const OF_A_SERVO: &[&str] = &[
     "stuck", "silent", "deaf", "hot", "error", "load", "carries", "backlash", "jitter", "reboot", "id",
-    "baud", "refuses", "firmware", "without", "locked", "unlocked", "has", "drop", "late", "flips", "drift",
+    "baud", "refuses", "firmware", "without", "locked", "unlocked", "has", "drop", "late", "flips",
+    "babbles", "drift",
 ];
 /// Words of the times.
 const TIMES: &[&str] = &["at", "for", "from", "every", "once"];
@@ -199,6 +200,7 @@ fn of_a_servo(words: &mut Words<'_>) -> Result<ServoFault, FaultError> {
         "drop" => ServoFault::Drop(words.share()?),
         "late" => ServoFault::Late(words.micros()?),
         "flips" => ServoFault::Flips(words.share()?),
+        "babbles" => ServoFault::Babbles,
         _ => ServoFault::Drift(words.number("ppm", -200_000.0, 200_000.0)?.round() as i32),
     })
 }

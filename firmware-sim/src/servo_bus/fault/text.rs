@@ -32,6 +32,7 @@ impl fmt::Display for ServoFault {
             Self::Drop(ppm) => write!(f, "drop {}%", percent(ppm)),
             Self::Late(us) => write!(f, "late {us}us"),
             Self::Flips(ppm) => write!(f, "flips {}%", percent(ppm)),
+            Self::Babbles => write!(f, "babbles"),
             Self::Drift(ppm) => write!(f, "drift {ppm}ppm"),
         }
     }

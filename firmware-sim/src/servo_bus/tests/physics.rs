@@ -296,7 +296,10 @@ fn every_model_gets_there_and_stands() {
         let off = servo.present_counts() - to;
         let speed = servo.true_velocity_rad_per_s();
         let top = servo.counters().speed_max_rad_per_s / servo.motor().no_load_rad_per_s;
-        told += &format!("{}: off {off}, speed {speed:.4}, top {top:.2}\n", profile.key);
+        told = format!(
+            "{told}{}: off {off}, speed {speed:.4}, top {top:.2}\n",
+            profile.key
+        );
         // Friction leaves a little; without a punch nothing makes up for it.
         let allowed = (profile.counts_per_turn / 120.0) as i64;
         assert!(off.abs() <= allowed && speed.abs() < 0.01, "{told}");

@@ -275,6 +275,29 @@ fn a_load_is_a_share_a_torque_or_a_weight() {
 }
 
 #[test]
+fn one_that_babbles_speaks_when_others_are_asked() {
+    let mut host = host_of(&[1, 2], &[]);
+    let good = host.ask(&ping(1));
+    inject(&mut host, "servo 2 babbles");
+    let heard: Vec<_> = (0..100).map(|_| host.ask(&ping(1))).collect();
+    assert!(
+        heard.iter().all(|bytes| *bytes != good),
+        "garbage in or around every answer"
+    );
+    let whole = heard
+        .iter()
+        .filter(|bytes| bytes.windows(good.len()).any(|part| part == good))
+        .count();
+    assert!(
+        (50..100).contains(&whole),
+        "most answers come through whole, some do not: {whole}"
+    );
+    inject(&mut host, "cable cut after 1");
+    host.wait(10);
+    assert_eq!(host.ask(&ping(1)), good, "without power it is quiet");
+}
+
+#[test]
 fn encoders_jitter_when_told_to() {
     let mut host = host_of(&[1], &["servo 1 jitter 3"]);
     let mut seen = std::collections::BTreeSet::new();
