@@ -41,7 +41,7 @@ impl Default for Policy {
             on_overload: Reaction::BackOff,
             on_brownout: Reaction::Hold,
             on_lost_host: Reaction::Hold,
-            heartbeat_ms: 500,
+            heartbeat_ms: 200,
             hot_c: 60.0,
         }
     }

@@ -183,14 +183,19 @@ impl ServoBus {
         self.servos.iter().find(|servo| servo.id() == id)
     }
 
-    /// The first servo with number `id`, to put back its EEPROM.
-    pub fn servo_mut(&mut self, id: u8) -> Option<&mut Servo> {
+    /// The first servo with number `id`.
+    pub(super) fn servo_mut(&mut self, id: u8) -> Option<&mut Servo> {
         self.servos.iter_mut().find(|servo| servo.id() == id)
     }
 
     /// All servos in the order of the chain.
     pub fn servos(&self) -> &[Servo] {
         &self.servos
+    }
+
+    /// The same, to put back their EEPROM.
+    pub fn servos_mut(&mut self) -> &mut [Servo] {
+        &mut self.servos
     }
 
     /// The last answers, oldest first.

@@ -84,6 +84,11 @@ impl Servo {
         self.register(&row.name)
     }
 
+    /// What is wrong with it, in the bits of its error byte or register.
+    pub fn alarm_bits(&self) -> u8 {
+        self.alarms()
+    }
+
     /// The file name of its profile.
     pub fn model(&self) -> &str {
         &self.facts.model

@@ -135,6 +135,11 @@ impl Servo {
                 return None;
             }
         }
+        // An AX or MX that is locked stays so until power is off; rustypot, which tried it, says that a 0 changes nothing.
+        let locks = self.table.known_at(at) == Some(Reg::Lock) && !feetech;
+        if locks && self.table.get(Reg::Lock) != 0 {
+            return None;
+        }
         let start = usize::from(at);
         let changes = self.table.memory()[start..start + bytes.len()] != *bytes;
         let keeps = is_eeprom && !(feetech && self.table.get(Reg::Lock) != 0);

@@ -32,6 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             &mut line,
             &MonotonicClock::new(),
             &there,
+            &mut || None,
             &mut |_| (),
         )
     });

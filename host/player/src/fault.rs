@@ -39,7 +39,7 @@ pub enum Fault {
     #[error("{0} does not answer; check its cable and the one before it, then power")]
     BusSilent(Place),
     /// The line itself failed.
-    #[error("{why}; the servos' own watchdogs stop them")]
+    #[error("{why}; its servos stop by themselves and stand with torque on: plug it in again, then reset")]
     BusLost {
         /// The bus's name.
         bus: String,
@@ -70,6 +70,19 @@ pub enum Fault {
         /// Distance from the goal.
         by_rad: f64,
     },
+    /// It pulls with nearly all it has, for long, and backing off has not helped or is not wanted.
+    #[error("{0} pulls with nearly all it has; take load off it, or look for what blocks it")]
+    Overloaded(Place),
+    /// Its supply fails.
+    #[error(
+        "{place} has only {voltage_v:.1} V; check the supply and its cable, or move fewer joints at once"
+    )]
+    BrownOut {
+        /// Which servo.
+        place: Place,
+        /// Present Input Voltage.
+        voltage_v: f64,
+    },
     /// It was rebooted, or its power failed for a moment.
     #[error("{0} has restarted; check its power supply, then arm again")]
     Restarted(Place),
@@ -98,6 +111,8 @@ impl Fault {
             Self::ServoError { .. } => "servo-error",
             Self::Hot { .. } => "hot",
             Self::Strained { .. } => "strained",
+            Self::Overloaded(_) => "overloaded",
+            Self::BrownOut { .. } => "brown-out",
             Self::Restarted(_) => "restarted",
             Self::TorqueLost(_) => "torque-lost",
             Self::Refused(_) => "refused",

@@ -25,15 +25,9 @@ impl Player {
             BusEvent::HardwareError { member, bits } => {
                 self.member_fault(at, member, now, |place| Fault::ServoError { place, bits });
             }
-            BusEvent::Hot {
-                member,
-                temperature_c,
-            } => {
-                self.member_fault(at, member, now, |place| Fault::Hot { place, temperature_c });
-            }
             BusEvent::Restarted { member } => self.member_fault(at, member, now, Fault::Restarted),
             BusEvent::TorqueLost { member } => self.member_fault(at, member, now, Fault::TorqueLost),
-            // Silence is judged by the age of readings; the rest is counted by the bus.
+            // Silence is judged by the age of readings, heat by the supply's; the rest is counted by the bus.
             _ => {}
         }
     }

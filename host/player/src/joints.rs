@@ -2,6 +2,7 @@
 
 use crate::puppet::{Puppet, Seat};
 use crate::report::{Interventions, JointReport};
+use crate::trouble::Signs;
 use device::Instant;
 use device::servo::{Armed, Bus, BusError, BusEvent, Commanded, Goal, Intervention, Limits, Reading};
 
@@ -187,6 +188,27 @@ impl Lines {
             limited: line.limited.get(seat.member).copied().unwrap_or_default(),
             ..JointReport::default()
         }
+    }
+
+    /// What tells of heat, overload and brown-out.
+    pub(crate) fn signs(&self, joint: usize) -> Signs {
+        let Some((bus, member)) = self.seat(joint) else {
+            return Signs::default();
+        };
+        let (reading, supply) = (bus.reading(member), bus.supply(member).unwrap_or_default());
+        let strain = |goal: f64| reading.map(|reading| (goal - reading.position_rad).abs());
+        Signs {
+            temperature_c: supply.temperature_c,
+            // Whoever answers has some: 0 V is a servo that does not measure it.
+            voltage_v: supply.voltage_v.filter(|volts| *volts > 0.0),
+            load: reading.and_then(|reading| reading.load),
+            strain_rad: bus.goal_rad(member).and_then(strain).unwrap_or_default(),
+        }
+    }
+
+    /// The place of a joint's bus, and its place there.
+    pub(crate) fn place(&self, joint: usize) -> Option<(usize, usize)> {
+        self.seats.get(joint).map(|seat| (seat.bus, seat.member))
     }
 
     /// Writes every joint's goal into the pose; joints without one keep what is there.

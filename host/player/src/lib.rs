@@ -29,9 +29,11 @@ mod order;
 mod playback;
 mod player;
 mod playing;
+mod policy;
 mod puppet;
 mod report;
 mod run;
+mod trouble;
 mod watch;
 
 pub use config::{Ending, PlayerConfig};
@@ -42,3 +44,4 @@ pub use player::{Player, State};
 pub use puppet::{Puppet, PuppetBus, PuppetError, Seat};
 pub use report::{Interventions, JointReport, Phase, Report};
 pub use run::{Operator, run};
+pub use trouble::Trouble;

@@ -4,6 +4,7 @@ use crate::config::Ending;
 use crate::fault::Fault;
 use crate::order::{Order, Rejection};
 use crate::player::{Player, Stance, State, Stopping};
+use crate::trouble::Troubled;
 use device::Instant;
 
 impl Player {
@@ -31,10 +32,7 @@ impl Player {
             (Order::Reset, State::Faulted(_)) => {
                 self.reset_pending = true;
                 self.stopping
-                    .get_or_insert(Stopping {
-                        since: now,
-                        ending: Ending::Release,
-                    })
+                    .get_or_insert(Stopping::new(now, Ending::Release))
                     .ending = Ending::Release;
                 Ok(())
             }
@@ -55,10 +53,7 @@ impl Player {
             }
             (Order::Release, _) => {
                 self.begin_hold();
-                self.stopping = Some(Stopping {
-                    since: now,
-                    ending: Ending::Release,
-                });
+                self.stopping = Some(Stopping::new(now, Ending::Release));
                 Ok(())
             }
             (_, State::Released) => Err("arm first"),
@@ -90,7 +85,8 @@ impl Player {
     fn arm(&mut self, now: Instant) {
         self.state = State::Arming;
         self.stopping = None;
-        self.strained_since.fill(None);
+        self.troubled.fill(Troubled::default());
+        self.pace = 1.0;
         for at in 0..self.lines.all.len() {
             let Some(line) = self.lines.all.get_mut(at) else {
                 continue;

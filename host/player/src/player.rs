@@ -9,8 +9,10 @@ use crate::joints::Lines;
 use crate::lag::Follower;
 use crate::order::Order;
 use crate::playback::Playback;
+use crate::policy;
 use crate::puppet::{Puppet, PuppetError};
 use crate::report::{JointReport, Report};
+use crate::trouble::{Bounds, Troubled};
 use device::servo::{Armed, Bus, BusEvent, Commanded, Refusal};
 use device::{Instant, Transport};
 
@@ -51,6 +53,18 @@ impl State {
 pub(crate) struct Stopping {
     pub(crate) since: Instant,
     pub(crate) ending: Ending,
+    /// Of a hold: joints that something keeps from their goals are held where they are.
+    pub(crate) settled: bool,
+}
+
+impl Stopping {
+    pub(crate) fn new(since: Instant, ending: Ending) -> Self {
+        Self {
+            since,
+            ending,
+            settled: false,
+        }
+    }
 }
 
 /// What is wished for when nothing is being played.
@@ -85,7 +99,12 @@ pub struct Player {
     pub(crate) followers: Vec<Follower>,
     /// Seconds by which each joint's goal is ahead of the clip's time.
     pub(crate) leads: Vec<f64>,
-    pub(crate) strained_since: Vec<Option<Instant>>,
+    pub(crate) troubled: Vec<Troubled>,
+    pub(crate) bounds: Vec<Bounds>,
+    /// How fast time runs for what is played, as a share.
+    pub(crate) pace: f64,
+    /// The pose in `wanted` after backing off.
+    pub(crate) eased: Vec<f64>,
     /// Arming was refused since the last report, perhaps between two ticks.
     pub(crate) refused: bool,
     pub(crate) report: Report,
@@ -97,6 +116,7 @@ impl Player {
         puppet.check(&buses)?;
         let lines = Lines::new(buses, &puppet);
         let count = lines.count();
+        let bounds = policy::bounds(&puppet, &config);
         Ok(Self {
             config,
             puppet,
@@ -115,7 +135,10 @@ impl Player {
             heartbeat_at: None,
             followers: vec![Follower::default(); count],
             leads: vec![0.0; count],
-            strained_since: vec![None; count],
+            troubled: vec![Troubled::default(); count],
+            bounds,
+            pace: 1.0,
+            eased: vec![0.0; count],
             refused: false,
             report: Report {
                 joints: vec![JointReport::default(); count],
@@ -180,8 +203,8 @@ impl Player {
         for order in orders {
             self.obey(order, now);
         }
-        self.watch(now);
-        self.proceed(now, dt);
+        self.watch(now, dt);
+        self.proceed(now, dt * self.pace);
         self.drive(now);
         self.note_following(now);
         self.fill_report(now);
@@ -252,24 +275,22 @@ impl Player {
         if was_released {
             self.lines.release_all(now);
         }
+        let ending = self.ending_of(&fault);
         self.state = State::Faulted(fault);
         self.playback = None;
         self.reset_pending = false;
-        if !faulted || self.stopping.is_none() {
-            let ending = if was_released {
-                Ending::Release
-            } else {
-                self.config.ending
-            };
-            self.stopping = Some(Stopping { since: now, ending });
+        let holds = self
+            .stopping
+            .is_none_or(|stopping| stopping.ending == Ending::Hold);
+        if !faulted || holds {
+            let ending = if was_released { Ending::Release } else { ending };
+            self.stopping = Some(Stopping::new(now, ending));
         }
     }
 
     /// Sends goals where there is torque, looks where there is none.
     fn drive(&mut self, now: Instant) {
-        let posed = self.stance == Stance::Pose
-            && self.stopping.is_none()
-            && matches!(self.state, State::Holding | State::Playing);
+        let posed = self.ease();
         self.report.goals_sent = !self.lines.all.is_empty();
         for at in 0..self.lines.all.len() {
             let Some(line) = self.lines.all.get_mut(at) else {
@@ -278,7 +299,7 @@ impl Player {
             if line.release_due {
                 line.release(now);
             }
-            let pose = posed.then_some(self.wanted.as_slice());
+            let pose = posed.then_some(self.eased.as_slice());
             let result = match line.bus.armed() {
                 _ if line.lost => Ok(Commanded::Busy),
                 Armed::Yes => line.command(pose, now, &mut self.report.interventions),
@@ -300,6 +321,7 @@ impl Player {
             report,
             lines,
             followers,
+            troubled,
             ..
         } = self;
         report.at = now;
@@ -311,6 +333,7 @@ impl Player {
             .as_ref()
             .map(|playback| playback.phase)
             .unwrap_or_default();
+        report.pace = self.pace;
         report.clip_secs = self.playback.as_ref().and_then(Playback::secs);
         report.torque = !lines.all_loose() || lines.any_torque();
         report.torque_unknown = lines.torque_unknown();
@@ -326,6 +349,10 @@ impl Player {
             let tracking = followers.get(at).map(Follower::tracking).unwrap_or_default();
             joint.lag_secs = tracking.lag_secs;
             joint.tracking = tracking;
+            if let Some(troubled) = troubled.get(at) {
+                joint.trouble = troubled.worst();
+                joint.retreat = troubled.retreat();
+            }
         }
     }
 
@@ -357,7 +384,11 @@ impl Player {
             }
         }
         let waited_enough = now.since(stopping.since) >= self.config.braking_max;
-        if stopping.ending == Ending::Hold || !(self.lines.all_still() || waited_enough) {
+        if !(self.lines.all_still() || waited_enough) {
+            return;
+        }
+        if stopping.ending == Ending::Hold {
+            self.hold_where_joints_are(stopping);
             return;
         }
         for line in &mut self.lines.all {

@@ -15,12 +15,15 @@ use super::*;
 use crate::order::Order;
 use crate::report::Phase;
 use device::{Clock, VirtualClock};
-use device_profiles::Profiles;
+use device_profiles::{Policy, Profiles, Reaction};
 use motion::joint_clip::JointClip;
 use proptest::prelude::*;
 use responder::{ERROR, POSITION, Responder, TEMPERATURE, TORQUE};
 use std::sync::Arc;
 use std::time::Duration;
+
+#[path = "policy_tests.rs"]
+mod policies;
 
 const PERIOD: Duration = Duration::from_millis(20);
 
@@ -34,9 +37,22 @@ struct Bench {
 }
 
 impl Bench {
+    /// A player whose puppet lets go whatever happens.
     fn new(config: PlayerConfig) -> Self {
+        let letting_go = Policy {
+            on_heat: Reaction::Release,
+            on_overload: Reaction::Release,
+            on_brownout: Reaction::Release,
+            on_lost_host: Reaction::Release,
+            ..Policy::default()
+        };
+        Self::with_policy(config, letting_go)
+    }
+
+    fn with_policy(config: PlayerConfig, policy: Policy) -> Self {
         let profiles = Profiles::builtin();
         let puppet = Puppet::new(profiles.puppet("marionette").unwrap(), &profiles).unwrap();
+        let puppet = puppet.with_policy(policy);
         let clock = VirtualClock::new();
         clock.advance(Duration::from_secs(1));
         let far: Vec<Responder> = puppet

@@ -2,7 +2,8 @@
 
 use device::Transport;
 use device::servo::{Bus, BusError, BusSettings, Member, MemberError};
-use device_profiles::{ProfileError, Profiles, PuppetProfile};
+use device_profiles::{Policy, ProfileError, Profiles, PuppetProfile, Role};
+use std::time::Duration;
 
 /// Why a puppet cannot be driven.
 #[derive(Debug, thiserror::Error)]
@@ -65,6 +66,7 @@ pub struct Puppet {
     joints: Vec<String>,
     seats: Vec<Seat>,
     buses: Vec<PuppetBus>,
+    policy: Policy,
 }
 
 impl Puppet {
@@ -75,6 +77,7 @@ impl Puppet {
             joints: Vec::new(),
             seats: Vec::new(),
             buses: Vec::new(),
+            policy: puppet.policy,
         };
         for joint in puppet.joints() {
             let member = Member::of_joint(joint, profiles.servo(&joint.model)?)?;
@@ -106,6 +109,32 @@ impl Puppet {
         self.buses.len().saturating_sub(1)
     }
 
+    /// What it does about trouble.
+    pub fn policy(&self) -> &Policy {
+        &self.policy
+    }
+
+    /// The same puppet with another policy, as a show may choose.
+    #[must_use]
+    pub fn with_policy(mut self, policy: Policy) -> Self {
+        self.policy = policy;
+        self
+    }
+
+    /// Models that have no watchdog: when the program or the cable is lost they go to their last goal, one step
+    /// away, and stand there.
+    pub fn without_watchdog(&self) -> Vec<&str> {
+        let members = self.buses.iter().flat_map(|bus| &bus.members);
+        let servos = members.map(Member::servo);
+        let mut models: Vec<&str> = servos
+            .filter(|servo| servo.role(Role::BusWatchdog).is_none())
+            .map(|servo| servo.name.as_str())
+            .collect();
+        models.sort_unstable();
+        models.dedup();
+        models
+    }
+
     /// What people call it.
     pub fn name(&self) -> &str {
         &self.name
@@ -131,16 +160,17 @@ impl Puppet {
         self.joints.iter().position(|joint| joint == name)
     }
 
-    /// Puts one of the puppet's buses on a line, with the usual settings.
+    /// Puts one of the puppet's buses on a line, with the usual settings and what the policy says of them.
     pub fn connect(&self, bus: &str, transport: Box<dyn Transport>) -> Result<Bus, PuppetError> {
         let Some(line) = self.buses.iter().find(|line| line.name == bus) else {
             return Err(self.unknown_bus(bus));
         };
-        Ok(Bus::new(
-            transport,
-            line.members.clone(),
-            BusSettings::new(&line.name, line.baud),
-        )?)
+        let settings = BusSettings {
+            watchdog: Duration::from_millis(u64::from(self.policy.heartbeat_ms)),
+            hot_c: self.policy.hot_c,
+            ..BusSettings::new(&line.name, line.baud)
+        };
+        Ok(Bus::new(transport, line.members.clone(), settings)?)
     }
 
     /// Whether these buses are the puppet's, in order.

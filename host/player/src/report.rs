@@ -3,6 +3,7 @@
 use crate::lag::Tracking;
 use crate::order::Rejection;
 use crate::player::State;
+use crate::trouble::Trouble;
 use device::Instant;
 use device::servo::{Change, Load, Presence};
 use std::time::Duration;
@@ -94,6 +95,10 @@ pub struct JointReport {
     pub lag_secs: Option<f64>,
     /// How well it follows.
     pub tracking: Tracking,
+    /// What is wrong with it that can still be helped.
+    pub trouble: Option<Trouble>,
+    /// Share of the way from wish to joint that its goal has retreated, 0 to 1.
+    pub retreat: f64,
 }
 
 /// One tick.
@@ -107,6 +112,10 @@ pub struct Report {
     pub state: State,
     /// Where playing stands.
     pub phase: Phase,
+    /// How fast time runs for what is played, as a share of what was asked for; less than 1 while backing off.
+    pub pace: f64,
+    /// What the puppet backs off for, and the joint; the worst, and the first that has it.
+    pub backing_off: Option<(Trouble, usize)>,
     /// The clip's time, while one is loaded.
     pub clip_secs: Option<f64>,
     /// Whether goals went out on every bus in this tick.

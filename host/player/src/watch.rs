@@ -34,7 +34,8 @@ impl Player {
     }
 
     /// Judges what is known by now. Only a player with torque has anything to fear.
-    pub(crate) fn watch(&mut self, now: Instant) {
+    pub(crate) fn watch(&mut self, now: Instant, dt_secs: f64) {
+        self.watch_troubles(now, dt_secs);
         if !matches!(self.state, State::Holding | State::Playing) {
             self.late_run = 0;
             return;
@@ -44,7 +45,7 @@ impl Player {
         }
     }
 
-    fn find_fault(&mut self, now: Instant) -> Option<Fault> {
+    fn find_fault(&self, now: Instant) -> Option<Fault> {
         if self.late_run >= self.config.late_ticks_max {
             return Some(Fault::LateTicks { count: self.late_run });
         }
@@ -58,7 +59,7 @@ impl Player {
         if self.heartbeat_is_missing(now) {
             return Some(Fault::HeartbeatLost);
         }
-        self.find_silence(now).or_else(|| self.find_strain(now))
+        self.find_silence(now)
     }
 
     /// Whether a heartbeat is needed and has not come for too long.
@@ -83,33 +84,6 @@ impl Player {
                 (0..line.joints.len()).find(|member| now.since(heard(*member)) > self.config.silence_max);
             if let Some(place) = silent.and_then(|member| self.place(at, member)) {
                 return Some(Fault::BusSilent(place));
-            }
-        }
-        None
-    }
-
-    fn find_strain(&mut self, now: Instant) -> Option<Fault> {
-        for joint in 0..self.lines.count() {
-            let by_rad = match (self.lines.goal_rad(joint), self.lines.reading(joint)) {
-                (Some(goal), Some(reading)) => (goal - reading.position_rad).abs(),
-                _ => 0.0,
-            };
-            let Some(since) = self.strained_since.get_mut(joint) else {
-                continue;
-            };
-            if by_rad <= self.config.strain_rad {
-                *since = None;
-            } else if now.since(*since.get_or_insert(now)) > self.config.strain_max {
-                let (bus, member) = self.lines.seat(joint)?;
-                let at = self
-                    .lines
-                    .all
-                    .iter()
-                    .position(|line| line.bus.name() == bus.name())?;
-                return Some(Fault::Strained {
-                    place: self.place(at, member)?,
-                    by_rad,
-                });
             }
         }
         None

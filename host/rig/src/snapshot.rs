@@ -341,6 +341,10 @@ pub struct PuppetView {
     pub bones: Vec<[DVec3; 2]>,
     /// Whether any servo may have torque.
     pub torque: bool,
+    /// What it backs off for, and which joint has it, in words.
+    pub backing_off: Option<String>,
+    /// How fast time runs for what is played, as a share of what was asked for.
+    pub pace: f64,
     /// Whether this step sent goals on every bus.
     pub goals_sent: bool,
     /// Whether servos that had torque can no longer be asked, or have not answered that it is off.
@@ -390,6 +394,10 @@ pub struct JointView {
     pub lag_secs: Option<f64>,
     /// How well it follows.
     pub tracking: Tracking,
+    /// What is wrong with it that can still be helped by doing less, in a word.
+    pub trouble: Option<&'static str>,
+    /// Share of the way from wish to joint that its goal has retreated, 0 to 1.
+    pub retreat: f64,
 }
 
 /// An input device.

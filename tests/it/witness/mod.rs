@@ -1,12 +1,14 @@
 //! Programs that know nothing of ours, on our simulated devices behind pseudo-terminals.
 //!
-//! Two published servo libraries drive the simulated bus; two readers written here from the documented bytes alone
+//! Two published servo libraries drive the simulated bus, with every model they know; two readers written here from the documented bytes alone
 //! listen to the simulated dial box and tablet, and our own codecs listen to the same. Where a library is known to
 //! be wrong, its wrong behaviour is asserted with the reason, so that a corrected version is noticed.
 
 mod dial_box;
+mod dynamixel2_models;
 mod dynamixel2_peer;
 mod hands;
+mod rustypot_models;
 mod rustypot_peer;
 mod tablet;
 

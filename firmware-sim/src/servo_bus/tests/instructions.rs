@@ -299,10 +299,10 @@ fn eeprom_survives_between_runs() {
     host.ask(&write(1, 20, &(-500i32).to_le_bytes()));
     let kept = host.bus.servo(1).expect("there").eeprom().to_vec();
     let mut other = bus(BusOptions::default(), &[1]);
-    assert!(other.servo_mut(1).expect("there").restore_eeprom(&kept));
+    assert!(other.servos_mut()[0].restore_eeprom(&kept));
     assert_eq!(
         other.servo(1).expect("there").register("Homing Offset"),
         Some(-500)
     );
-    assert!(!other.servo_mut(1).expect("there").restore_eeprom(&kept[1..]));
+    assert!(!other.servos_mut()[0].restore_eeprom(&kept[1..]));
 }

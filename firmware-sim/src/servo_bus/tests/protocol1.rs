@@ -117,6 +117,8 @@ fn a_lock_holds_until_power_is_off() {
     assert_eq!(error(&mut host, &put(47, &[1])), Some(0));
     assert_eq!(error(&mut host, &put(18, &[4])), Some(1 << 3), "locked");
     assert_eq!(host.register(1, "Shutdown"), 36);
+    assert_eq!(error(&mut host, &put(47, &[0])), Some(0));
+    assert_eq!(host.register(1, "Lock"), 1, "a 0 changes nothing");
     host.bus
         .inject(host.now_us, &Fault::parse("supply 0 for 100ms").expect("a fault"));
     host.wait(1000);

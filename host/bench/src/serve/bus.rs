@@ -1,11 +1,14 @@
-//! A served bus of servos: which servos, on what wire, with which faults, and memories that outlive it.
+//! A served bus of servos: which servos, on what wire, with which habits and faults.
 
 use std::path::PathBuf;
 
 use device_profiles::{ProfileError, Profiles};
-use firmware_sim::servo_bus::{Adapter, AddError, BusOptions, Unit, WireTime};
+use firmware_sim::servo_bus::{
+    Absent, Adapter, AddError, BadCrc, BusOptions, Gaps, InnerHeader, Precedence, Unit, WireTime,
+};
 use firmware_sim::{Fault, ServoBus};
 
+use super::eeprom::Eeprom;
 use super::{ServeError, Served};
 
 /// One model under several ids, as `MODEL:ID[-ID]`.
@@ -23,7 +26,7 @@ pub struct ServoSpec {
 #[derive(Debug, thiserror::Error)]
 pub enum ServoSpecError {
     /// The text names no servos.
-    #[error("\"{text}\": expected MODEL:ID or MODEL:ID-ID with ids from 0 to 252, such as XL430-W250:1-20")]
+    #[error("\"{text}\": expected MODEL:ID or MODEL:ID-ID with ids from 0 to 253, such as XL430-W250:1-20")]
     Text {
         /// As given.
         text: String,
@@ -54,7 +57,7 @@ impl ServoSpec {
             .filter(|(model, _)| !model.is_empty())
             .ok_or_else(wrong)?;
         let (first, last) = ids.split_once('-').unwrap_or((ids, ids));
-        let id = |text: &str| text.parse().ok().filter(|&id: &u8| id <= 252).ok_or_else(wrong);
+        let id = |text: &str| text.parse().ok().filter(|&id: &u8| id <= 253).ok_or_else(wrong);
         let (first, last) = (id(first)?, id(last)?);
         if first > last {
             return Err(wrong());
@@ -65,6 +68,21 @@ impl ServoSpec {
             last,
         })
     }
+}
+
+/// What the makers' documents leave open, as this bus has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Habits {
+    /// What servos do behind one that does not answer its part of a group read.
+    pub absent: Absent,
+    /// What a servo does with a packet whose checksum is wrong.
+    pub bad_crc: BadCrc,
+    /// What a servo makes of an unstuffed header inside a packet.
+    pub inner_header: InnerHeader,
+    /// What a read of bytes that no register covers gives.
+    pub gaps: Gaps,
+    /// Which error is told when a write deserves several.
+    pub precedence: Precedence,
 }
 
 /// What a served bus is made of.
@@ -80,6 +98,8 @@ pub struct BusPlan {
     pub echo: bool,
     /// An adapter that hands bytes over in pieces.
     pub adapter: Option<Adapter>,
+    /// What the documents leave open.
+    pub habits: Habits,
     /// Decides what random faults hit.
     pub seed: u64,
     /// What goes wrong; times count from the start.
@@ -97,6 +117,7 @@ impl BusPlan {
             wire: WireTime::Real,
             echo: false,
             adapter: None,
+            habits: Habits::default(),
             seed: 0,
             faults: Vec::new(),
             eeprom: None,
@@ -110,87 +131,28 @@ impl BusPlan {
             wire: self.wire,
             echo: self.echo,
             adapter: self.adapter,
+            absent: self.habits.absent,
+            bad_crc: self.habits.bad_crc,
+            inner_header: self.habits.inner_header,
             seed: self.seed,
-            ..BusOptions::default()
         });
         for spec in &self.servos {
             for id in spec.first..=spec.last {
-                bus.add(profiles.servo(&spec.model)?, Unit::new(id))?;
+                let unit = Unit {
+                    gaps: self.habits.gaps,
+                    precedence: self.habits.precedence,
+                    ..Unit::new(id)
+                };
+                bus.add(profiles.servo(&spec.model)?, unit)?;
             }
         }
         let eeprom = match &self.eeprom {
-            Some(folder) => Some(Eeprom::restore(folder.clone(), &mut bus)?),
+            Some(folder) => Some(Eeprom::restore(folder, &mut bus)?),
             None => None,
         };
         for fault in &self.faults {
             bus.inject(0, fault);
         }
         Ok(Served::Bus(Box::new(bus), self.baud, eeprom))
-    }
-}
-
-/// Servos' memories in a folder: one file a servo, the EEPROM's bytes from address 0.
-#[derive(Debug)]
-pub struct Eeprom {
-    folder: PathBuf,
-    /// Number of each servo when it was made, in the order of the chain; its file is named after it.
-    ids: Vec<u8>,
-    kept: Vec<Vec<u8>>,
-}
-
-impl Eeprom {
-    /// Brings back what the folder holds. Servos without a file are as they come out of the box.
-    fn restore(folder: PathBuf, bus: &mut ServoBus) -> Result<Self, ServeError> {
-        std::fs::create_dir_all(&folder).map_err(|error| ServeError::io(folder.clone(), &error))?;
-        let ids: Vec<u8> = bus
-            .servos()
-            .iter()
-            .map(firmware_sim::servo_bus::Servo::id)
-            .collect();
-        let mut eeprom = Self {
-            folder,
-            ids,
-            kept: Vec::new(),
-        };
-        let mut found = Vec::new();
-        for &id in &eeprom.ids {
-            let path = eeprom.path(id);
-            match std::fs::read(&path) {
-                Ok(bytes) => found.push((id, path, bytes)),
-                Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
-                Err(error) => return Err(ServeError::io(path, &error)),
-            }
-        }
-        for (id, path, bytes) in found {
-            if !bus
-                .servo_mut(id)
-                .is_some_and(|servo| servo.restore_eeprom(&bytes))
-            {
-                let why = format!(
-                    "{} bytes are not the memory of servo {id}'s model; delete the file, or name the model it is of",
-                    bytes.len()
-                );
-                return Err(ServeError::Eeprom { path, why });
-            }
-        }
-        eeprom.kept = bus.servos().iter().map(|servo| servo.eeprom().to_vec()).collect();
-        Ok(eeprom)
-    }
-
-    fn path(&self, id: u8) -> PathBuf {
-        self.folder.join(format!("servo-{id}.eeprom"))
-    }
-
-    /// Writes the memories that have changed.
-    pub(super) fn keep(&mut self, bus: &ServoBus) -> Result<(), ServeError> {
-        for (place, servo) in bus.servos().iter().enumerate() {
-            if self.kept[place] == servo.eeprom() {
-                continue;
-            }
-            let path = self.path(self.ids[place]);
-            std::fs::write(&path, servo.eeprom()).map_err(|error| ServeError::io(path, &error))?;
-            self.kept[place] = servo.eeprom().to_vec();
-        }
-        Ok(())
     }
 }

@@ -5,18 +5,21 @@
 //! *Start reading* at [`run`].
 
 mod bus;
+mod eeprom;
 mod line;
+mod orders;
 mod pace;
 mod served;
 
-pub use bus::{BusPlan, Eeprom, ServoSpec, ServoSpecError};
+pub use bus::{BusPlan, Habits, ServoSpec, ServoSpecError};
+pub use eeprom::Eeprom;
 pub use line::{Place, ServeLine};
 pub use served::Served;
 
 // What a served device is told with and tells, for programs that must not know the firmware itself.
 pub use firmware_sim::dial_box::Output;
 pub use firmware_sim::script::ScriptError;
-pub use firmware_sim::servo_bus::WireTime;
+pub use firmware_sim::servo_bus::{Absent, BadCrc, Gaps, InnerHeader, Precedence, WireTime};
 pub use firmware_sim::{Fault, Script};
 
 use std::io;
@@ -38,6 +41,10 @@ pub enum Event<'a> {
     Output(u64, &'a Output),
     /// The host set its line to another speed, baud.
     Baud(u64, u32),
+    /// An order given while it ran was carried out; what there is to say to it.
+    Obeyed(u64, &'a str),
+    /// An order given while it ran was refused, and why.
+    Refused(u64, &'a str),
 }
 
 /// A device could not be served on.
@@ -70,12 +77,14 @@ const READ_BYTES: usize = 4096;
 /// How often servos' memories are looked at for changes worth keeping, microseconds.
 const KEEP_US: u64 = 1_000_000;
 
-/// Serves `device` on `line` until `stop` is set. Does not print; `told` hears what happens.
+/// Serves `device` on `line` until `stop` is set. `orders` is asked for what somebody at the keyboard wants of it now.
+/// Does not print; `told` hears what happens.
 pub fn run(
     device: &mut Served,
     line: &mut ServeLine,
     clock: &dyn Clock,
     stop: &AtomicBool,
+    orders: &mut dyn FnMut() -> Option<String>,
     told: &mut dyn FnMut(Event<'_>),
 ) -> Result<(), ServeError> {
     let began = clock.now();
@@ -100,6 +109,12 @@ pub fn run(
         if !due.is_empty() {
             line.write(&due)?;
             told(Event::DeviceWrote(now_us, &due));
+        }
+        while let Some(order) = orders() {
+            match device.order(now_us, &order) {
+                Ok(said) => told(Event::Obeyed(now_us, &said)),
+                Err(why) => told(Event::Refused(now_us, &why)),
+            }
         }
         device.drain_outputs(&mut |at_us, output| told(Event::Output(at_us, output)));
         if now_us >= keep_us {

@@ -8,7 +8,7 @@ use firmware_sim::wacom_iv::Model;
 use firmware_sim::{Firmware, Script, ServoBus, SgiDialBox, WacomIv};
 
 use super::ServeError;
-use super::bus::Eeprom;
+use super::eeprom::Eeprom;
 
 /// A simulated device ready to be served.
 pub enum Served {

@@ -20,11 +20,18 @@ fn serve(mut device: Served, place: &Place, with: impl FnOnce(&str)) -> Vec<(u64
     let (stop_there, shown_there) = (Arc::clone(&stop), Arc::clone(&shown));
     let thread = std::thread::spawn(move || {
         let clock = MonotonicClock::new();
-        run(&mut device, &mut line, &clock, &stop_there, &mut |event| {
-            if let Event::Output(at_us, output) = event {
-                shown_there.lock().expect("whole").push((at_us, output.clone()));
-            }
-        })
+        run(
+            &mut device,
+            &mut line,
+            &clock,
+            &stop_there,
+            &mut || None,
+            &mut |event| {
+                if let Event::Output(at_us, output) = event {
+                    shown_there.lock().expect("whole").push((at_us, output.clone()));
+                }
+            },
+        )
     });
     with(&path);
     stop.store(true, Ordering::Relaxed);
@@ -117,15 +124,61 @@ fn memories_outlive_the_program() {
         again.servo(1).expect("there").register("Return Delay Time"),
         Some(5)
     );
-    std::fs::write(folder.path().join("servo-2.eeprom"), [1, 2, 3]).expect("writes");
-    let mut plan = BusPlan::new(ServoSpec::parse("XL430-W250:2").expect("reads"));
-    plan.eeprom = Some(folder.path().to_owned());
-    let error = plan
-        .build(&Profiles::builtin())
-        .err()
-        .expect("three bytes are no memory")
-        .to_string();
-    assert!(error.contains("servo-2.eeprom: 3 bytes are not"), "{error}");
+    // What it cost is kept as well; what it is of is checked.
+    let file = folder.path().join("servo-1.toml");
+    let text = std::fs::read_to_string(&file).expect("a file");
+    assert!(text.contains("writes = 1\n"), "{text}");
+    std::fs::rename(&file, folder.path().join("servo-7.toml")).expect("renames");
+    assert!(refusal(folder.path()).contains("expected the memory of xl330-m288, found that of xl430-w250"));
+    let short = "model = \"xl330-m288\"\nwrites = 0\neeprom = \"24 04\"\n";
+    std::fs::write(folder.path().join("servo-7.toml"), short).expect("writes");
+    assert!(refusal(folder.path()).contains("servo-7.toml: expected 64 bytes, found 2"));
+    std::fs::write(folder.path().join("servo-7.toml"), "model = 3").expect("writes");
+    assert!(refusal(folder.path()).contains("servo-7.toml"));
+}
+
+/// Why the bus with the memories of `folder` cannot be.
+fn refusal(folder: &Path) -> String {
+    let mut plan = BusPlan::new(ServoSpec::parse("XL430-W250:1-3,XL330-M288:7").expect("reads"));
+    plan.eeprom = Some(folder.to_owned());
+    let error = plan.build(&Profiles::builtin()).err();
+    error.expect("it is no memory of that servo").to_string()
+}
+
+#[test]
+fn two_servos_of_one_number_have_a_memory_each() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = || {
+        let mut plan = BusPlan::new(ServoSpec::parse("AX-12A:1,AX-12A:1").expect("reads"));
+        plan.eeprom = Some(folder.path().to_owned());
+        plan.build(&Profiles::builtin()).expect("built in")
+    };
+    // Both obey: Return Delay Time 5.
+    let mut first = plan();
+    first.firmware().receive(0, &[0xFF, 0xFF, 1, 4, 3, 5, 5, 0xED]);
+    first.firmware().transmit(1_000_000, &mut Vec::new());
+    first.keep().expect("keeps");
+    assert!(folder.path().join("servo-1-2.toml").exists());
+    let Served::Bus(again, ..) = plan() else {
+        panic!("a bus")
+    };
+    for servo in again.servos() {
+        assert_eq!(servo.register("Return Delay Time"), Some(5));
+    }
+}
+
+#[test]
+fn orders_are_faults_and_two_words() {
+    let mut served = bus(None);
+    assert_eq!(served.order(0, "servo 2 silent"), Ok("servo 2 silent".to_owned()));
+    let lines = served.order(10, "servos").expect("a table");
+    assert_eq!(lines.lines().count(), 4, "{lines}");
+    assert!(lines.contains("xl330-m288"), "{lines}");
+    let why = served.order(20, "servo 2 quiet").expect_err("no such fault");
+    assert!(why.contains("column 9") && why.contains("`mend`"), "{why}");
+    assert_eq!(served.order(30, "mend"), Ok("mended".to_owned()));
+    let mut dials = Served::DialBox(Box::new(SgiDialBox::new(Options::default())));
+    assert!(dials.order(0, "mend").is_err());
 }
 
 /// CRC-16 of the protocol page, bit by bit: polynomial 8005, nothing reflected.
@@ -185,7 +238,7 @@ fn servo_lists_are_read() {
         "XL430-W250:",
         ":1",
         "XL430-W250:5-1",
-        "XL430-W250:1-253",
+        "XL430-W250:1-254",
         "XL430-W250:x",
     ] {
         let error = ServoSpec::parse(bad).expect_err(bad).to_string();

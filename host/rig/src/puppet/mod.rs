@@ -171,7 +171,10 @@ impl Seat {
             }
         }
         let order = match order {
-            PuppetCommand::Arm => Order::Arm,
+            PuppetCommand::Arm => {
+                self.say_what_a_lost_host_means();
+                Order::Arm
+            }
             PuppetCommand::Play | PuppetCommand::Follow => return Ok(()),
             PuppetCommand::Hold => Order::Hold,
             PuppetCommand::Release => Order::Release,
@@ -187,6 +190,21 @@ impl Seat {
         self.runner
             .order(order)
             .map_err(|()| format!("puppet {}: {}", self.profile.name, self.missing()))
+    }
+
+    /// Said before torque comes on, since nobody can say it afterwards.
+    fn say_what_a_lost_host_means(&mut self) {
+        let models = self.puppet.without_watchdog();
+        if models.is_empty() {
+            return;
+        }
+        let words = format!(
+            "puppet {}: {} have no watchdog: if this program or the cable is lost they stand at their last goal, with \
+             torque on, until their power is cut or `dialrig servo release` reaches them",
+            self.profile.name,
+            models.join(" and ")
+        );
+        self.remarks.push((NoteLevel::Warning, words));
     }
 
     fn missing(&self) -> String {
@@ -256,7 +274,8 @@ impl Seat {
                     .push((NoteLevel::Warning, format!("puppet {}: {why}", self.profile.name))),
             }
         }
-        self.runner.advance(now, &self.lines, ports, &mut self.remarks);
+        self.runner
+            .advance(now, &self.lines, &self.profile, ports, &mut self.remarks);
         std::mem::take(&mut self.remarks)
     }
 

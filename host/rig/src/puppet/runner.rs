@@ -9,6 +9,7 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender, TryRecvError, bounded};
 use device::clock::{Clock, Instant};
 use device::transport::Transport;
+use device_profiles::PuppetProfile;
 use player::{Fault, Operator, Order, Player, PlayerConfig, Puppet, Report, State};
 
 use super::{LOOK_AGAIN, Pace};
@@ -76,6 +77,7 @@ struct Seen {
 #[derive(Default)]
 struct Told {
     faulted: bool,
+    backing_off: Option<(player::Trouble, usize)>,
     refused: u64,
     rejected: Option<String>,
 }
@@ -156,6 +158,7 @@ impl Runner {
         &mut self,
         now: Instant,
         lines: &[Line],
+        profile: &PuppetProfile,
         ports: &mut dyn Ports,
         remarks: &mut Vec<(NoteLevel, String)>,
     ) {
@@ -175,13 +178,13 @@ impl Runner {
                     }
                 }
                 let report = inline.player.tick(now, &mut inline.orders.drain(..));
-                inline.told.about(report, remarks);
+                inline.told.about(report, profile, remarks);
                 if report.arming_refused {
                     let refusals = inline.player.refusals().map(ToString::to_string);
                     remarks.extend(refusals.map(|refusal| (NoteLevel::Warning, refusal)));
                 }
             }
-            Self::Threaded(threaded) => threaded.tell(now, lines, ports, remarks),
+            Self::Threaded(threaded) => threaded.tell(now, lines, profile, ports, remarks),
         }
     }
 
@@ -192,7 +195,7 @@ impl Runner {
             Self::Inline(mut inline) => {
                 let (mut off, mut known) = (false, false);
                 let began = clock.now();
-                let mut orders = vec![Order::Stop];
+                let mut orders = vec![Order::Stop, Order::Reset];
                 while !off && clock.now().since(began) < CLOSE_MAX {
                     let report = inline.player.tick(clock.now(), &mut orders.drain(..));
                     off = !report.torque;
@@ -225,7 +228,14 @@ fn lost_line<'a>(state: &State, lines: &'a [Line]) -> Option<&'a Line> {
 }
 
 impl Told {
-    fn about(&mut self, report: &Report, remarks: &mut Vec<(NoteLevel, String)>) {
+    fn about(&mut self, report: &Report, profile: &PuppetProfile, remarks: &mut Vec<(NoteLevel, String)>) {
+        if report.backing_off != self.backing_off {
+            self.backing_off = report.backing_off;
+            remarks.push(match super::view::backing_off(profile, report) {
+                Some(why) => (NoteLevel::Warning, format!("puppet backs off: {why}")),
+                None => (NoteLevel::Info, "puppet no longer backs off".to_owned()),
+            });
+        }
         let faulted = matches!(report.state, State::Faulted(_));
         if let (State::Faulted(fault), false) = (&report.state, self.faulted) {
             remarks.push((NoteLevel::Error, format!("puppet stopped: {fault}")));
@@ -268,13 +278,14 @@ impl Threaded {
         &mut self,
         now: Instant,
         lines: &[Line],
+        profile: &PuppetProfile,
         ports: &mut dyn Ports,
         remarks: &mut Vec<(NoteLevel, String)>,
     ) {
         // Each step is a sign of life; a queue that is full of orders is one, too.
         let _ = self.messages.try_send(Message::Order(Order::Alive));
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
-        self.told.about(&seen.report, remarks);
+        self.told.about(&seen.report, profile, remarks);
         if seen.refused != self.told.refused {
             self.told.refused = seen.refused;
             remarks.extend(seen.refusals.iter().map(|why| (NoteLevel::Warning, why.clone())));

@@ -4,7 +4,7 @@ use device::clock::Instant;
 use device::servo::Presence;
 use device::servo::member::error_names;
 use device_profiles::{PuppetJoint, PuppetProfile};
-use player::{JointReport, Report, State};
+use player::{JointReport, Report, State, Trouble};
 
 use super::bones::Bones;
 use crate::snapshot::{JointView, PuppetState, PuppetView};
@@ -36,6 +36,8 @@ pub(super) fn of(profile: &PuppetProfile, report: &Report, now: Instant) -> Pupp
         torque: report.torque,
         torque_unknown: report.torque_unknown,
         compensates_lag: report.compensates_lag,
+        backing_off: backing_off(profile, report),
+        pace: report.pace,
         goals_sent: report.goals_sent,
     }
 }
@@ -70,6 +72,24 @@ impl PuppetView {
     }
 }
 
+/// What the puppet backs off for, in words; none while it does not.
+pub(super) fn backing_off(profile: &PuppetProfile, report: &Report) -> Option<String> {
+    let (trouble, joint) = report.backing_off?;
+    let name = profile.joints().nth(joint).map(|joint| joint.name.as_str());
+    let seen = report.joints.get(joint)?;
+    let value = match trouble {
+        Trouble::Heat => seen.temperature_c.map(|celsius| format!("{celsius:.0} C")),
+        Trouble::BrownOut => seen.voltage_v.map(|volts| format!("{volts:.1} V")),
+        Trouble::Overload => None,
+    };
+    let value = value.map(|value| format!(" ({value})")).unwrap_or_default();
+    Some(format!(
+        "joint \"{}\" has {}{value}: playing slower and softer",
+        name.unwrap_or_default(),
+        trouble.name()
+    ))
+}
+
 fn seen(joint: &PuppetJoint, report: &JointReport, now: Instant) -> JointView {
     JointView {
         name: joint.name.clone(),
@@ -84,6 +104,8 @@ fn seen(joint: &PuppetJoint, report: &JointReport, now: Instant) -> JointView {
         present: matches!(report.presence, Some(Presence::Present)),
         lag_secs: report.lag_secs,
         tracking: report.tracking,
+        trouble: report.trouble.map(Trouble::name),
+        retreat: report.retreat,
         error: (report.error_bits != 0).then(|| error_names(report.error_bits)),
     }
 }

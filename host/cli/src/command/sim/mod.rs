@@ -1,6 +1,7 @@
 //! `dialrig sim`: simulated devices for any program that speaks to the real ones.
 
 mod controls;
+mod orders;
 mod servo_bus;
 
 use std::io::Write;
@@ -8,10 +9,12 @@ use std::path::PathBuf;
 
 use bench::serve::{self, Event, Place, ServeLine, Served};
 use clap::Subcommand;
+use serde_json::json;
 
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
+use orders::Orders;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -86,8 +89,39 @@ fn serve(
     ))?;
     console.flush()?;
     let clock = rig::real_time();
-    serve::run(&mut device, &mut line, &*clock, interrupt.flag(), told).map_err(|error| refused(&error))?;
+    let orders = Orders::listen();
+    let mut next = || orders.next();
+    serve::run(
+        &mut device,
+        &mut line,
+        &*clock,
+        interrupt.flag(),
+        &mut next,
+        &mut |event| {
+            answer(event, console);
+            told(event);
+        },
+    )
+    .map_err(|error| refused(&error))?;
     Ok(Exit::Done)
+}
+
+/// Says what came of an order. A reader that went away does not stop the device.
+fn answer(event: Event<'_>, console: &Console) {
+    let (t, done, said) = match event {
+        Event::Obeyed(at_us, said) => (at_us as f64 / 1e6, true, said),
+        Event::Refused(at_us, why) => (at_us as f64 / 1e6, false, why),
+        _ => return,
+    };
+    if console.json() {
+        let _ = console
+            .record(&json!({"t": t, "order": if done { "done" } else { "refused" }, "text": said}))
+            .and_then(|()| console.flush());
+    } else if done {
+        let _ = console.line(said).and_then(|()| console.flush());
+    } else {
+        console.remark(said);
+    }
 }
 
 /// A trace of bytes as an exchange file: who said what, when.
@@ -107,19 +141,34 @@ impl Trace {
     }
 
     fn note(&mut self, event: Event<'_>, console: &Console) {
+        let seconds = |at_us: u64| at_us as f64 / 1e6;
         let (at_us, who, bytes) = match event {
             Event::HostWrote(at_us, bytes) => (at_us, "host   >", bytes),
             Event::DeviceWrote(at_us, bytes) => (at_us, "device <", bytes),
-            Event::Output(..) | Event::Baud(..) => return,
+            Event::Baud(at_us, baud) => {
+                self.write(
+                    format_args!("# {:.6} s: the host listens at {baud} baud", seconds(at_us)),
+                    console,
+                );
+                return;
+            }
+            Event::Obeyed(at_us, said) => {
+                for line in said.lines() {
+                    self.write(format_args!("# {:.6} s: {line}", seconds(at_us)), console);
+                }
+                return;
+            }
+            Event::Output(..) | Event::Refused(..) => return,
         };
         let hex: Vec<String> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
-        let written = writeln!(
-            self.out,
-            "{who} {}      # {:.6} s",
-            hex.join(" "),
-            at_us as f64 / 1e6
-        )
-        .and_then(|()| self.out.flush());
+        self.write(
+            format_args!("{who} {}      # {:.6} s", hex.join(" "), seconds(at_us)),
+            console,
+        );
+    }
+
+    fn write(&mut self, line: std::fmt::Arguments<'_>, console: &Console) {
+        let written = writeln!(self.out, "{line}").and_then(|()| self.out.flush());
         if let Err(error) = written {
             console.remark(format_args!("trace {}: {error}", self.path.display()));
         }
