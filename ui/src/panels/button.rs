@@ -43,6 +43,8 @@ pub enum Tone {
     Live,
     /// The one that must be found at once.
     Loud,
+    /// It answers something that is too much.
+    TooMuch,
     /// A fault, and nothing else.
     Faulted,
 }
@@ -162,6 +164,11 @@ impl<'a> Button<'a> {
                 theme::LIVE.mix(theme::PANEL, 0.84),
                 theme::LIVE.mix(theme::PANEL, 0.4),
                 theme::LIVE,
+            ),
+            Tone::TooMuch => (
+                theme::TOO_MUCH.mix(theme::PANEL, 0.84),
+                theme::TOO_MUCH.mix(theme::PANEL, 0.4),
+                theme::TOO_MUCH,
             ),
             Tone::Loud => (theme::TEXT, theme::TEXT, theme::GROUND),
             Tone::Faulted => (theme::FAULTED, theme::FAULTED, theme::GROUND),

@@ -180,6 +180,10 @@ fn edit(act: Act, seen: &Snapshot) -> Option<Command> {
         Act::Undo => Some(Command::Undo),
         Act::Redo => Some(Command::Redo),
         Act::Save => Some(Command::Save),
+        Act::Lead => {
+            let leads = seen.puppet.as_ref()?.compensates_lag;
+            Some(Command::Puppet(PuppetCommand::CompensateLag(!leads)))
+        }
         _ => None,
     }
 }
@@ -230,6 +234,7 @@ fn order(act: Act) -> Option<Command> {
         Act::Hold => Command::Puppet(PuppetCommand::Hold),
         Act::Release => Command::Puppet(PuppetCommand::Release),
         Act::Reset => Command::Puppet(PuppetCommand::Reset),
+        Act::SlowToFit => Command::SlowToFit,
         _ => return None,
     })
 }

@@ -19,6 +19,7 @@ pub mod layout;
 pub mod patch;
 pub mod puppet;
 pub mod shortcuts;
+pub mod strain;
 pub mod style;
 pub mod transport;
 pub mod transport_buttons;

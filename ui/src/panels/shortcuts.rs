@@ -84,6 +84,10 @@ pub enum Act {
     Release,
     /// Puppet: leave the faulted state.
     Reset,
+    /// Puppet: gives the clip the time it needs.
+    SlowToFit,
+    /// Puppet: goals ahead of time by each joint's lag, or not.
+    Lead,
     /// The help page.
     Help,
     /// The patch panel instead of the figure, or back.
@@ -219,6 +223,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row((NONE, Key::End), Act::Ends(1), "time", "", ""),
     row((NONE, Key::ArrowUp), Act::Key(-1), "time", "Up, Down", "previous, next key"),
     row((NONE, Key::ArrowDown), Act::Key(1), "time", "", ""),
+    on_stage(row((SHIFT, Key::L), Act::Lead, "puppet", "Shift-L", "lead by the joints' lag")),
     row((NONE, Key::L), Act::Loop, "time", "L", "loop"),
     row((NONE, Key::Minus), Act::Speed(false), "time", "- =", "slower, faster"),
     row((NONE, Key::Equals), Act::Speed(true), "time", "", ""),
@@ -255,6 +260,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row((CTRL, Key::R), Act::Reset, "puppet", "Ctrl-R", "reset after a fault"),
     row((NONE, Key::A), Act::Arm, "puppet", "A", "arm"),
     row((NONE, Key::P), Act::PuppetPlay, "puppet", "P", "play the clip"),
+    on_stage(row((SHIFT, Key::F), Act::SlowToFit, "puppet", "Shift-F", "slow the clip to fit")),
     row((NONE, Key::F), Act::Follow, "puppet", "F", "follow the screen"),
     row((NONE, Key::H), Act::Hold, "puppet", "H", "hold"),
     row((NONE, Key::R), Act::Release, "puppet", "R", "release"),

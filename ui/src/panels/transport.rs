@@ -7,7 +7,7 @@ use rig::{Command, EditCommand, Snapshot, TransportCommand, TransportView};
 use super::button;
 use super::keys::paint_diamond;
 use super::style::{self, ink};
-use super::{Commands, Panel, kinetics, layout, transport_buttons};
+use super::{Commands, Panel, kinetics, layout, strain, transport_buttons};
 use crate::render::theme;
 use crate::render::timeline::Timeline;
 
@@ -67,6 +67,7 @@ impl Panel for Transport {
         );
         paint_ruler(ui, ruler, ground, &line);
         self.curve.show(ui, curve, &line, seen, commands);
+        strain::show(ui, ground, &line, seen);
         paint_playhead(ui, ground, &line, seen);
         self.track(ui, track, &line, seen, commands);
     }

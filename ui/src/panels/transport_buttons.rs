@@ -104,12 +104,34 @@ pub fn show(ui: &mut Ui, row: Rect, seen: &Snapshot, commands: &mut Commands<'_>
         }
         left += width + theme::STEP;
     }
-    readout(ui, pos2(left + theme::MARGIN, row.center().y), seen);
+    let read = readout(ui, pos2(left + theme::MARGIN, row.center().y), seen);
+    slow_to_fit(ui, row, read + theme::MARGIN, seen, commands);
     right_side(ui, row, seen, commands);
 }
 
-/// The time, large, with the clip's length beside it in the same digits.
-fn readout(ui: &Ui, at: egui::Pos2, seen: &Snapshot) {
+/// There only while the puppet cannot do the clip as fast as it is.
+fn slow_to_fit(ui: &mut Ui, row: Rect, left: f32, seen: &Snapshot, commands: &mut Commands<'_>) {
+    let Some(view) = &seen.feasibility else {
+        return;
+    };
+    let text = if view.slowing {
+        "Slowing"
+    } else if view.stretches.iter().any(|stretch| stretch.slowable) {
+        "Slow to fit"
+    } else {
+        return;
+    };
+    let tip = "Gives the keys the time the puppet needs; the path stays. One step of undo.";
+    let button = Button::new(text, tip, "Shift-F").named("slow to fit");
+    let button = button.tone(Tone::TooMuch).enabled(!view.slowing);
+    let rect = Rect::from_min_size(pos2(left, row.top()), vec2(88.0, row.height()));
+    if button.show(ui, rect).clicked() {
+        commands.push(Command::SlowToFit);
+    }
+}
+
+/// The time, large, with the clip's length beside it in the same digits. Returns where it ends.
+fn readout(ui: &Ui, at: egui::Pos2, seen: &Snapshot) -> f32 {
     let now = clock_text(seen.transport.secs);
     // Time runs by itself, or the puppet takes it along.
     let taken_along = seen.puppet.as_ref().is_some_and(|p| p.clip_secs.is_some());
@@ -126,13 +148,14 @@ fn readout(ui: &Ui, at: egui::Pos2, seen: &Snapshot) {
         .text(right, Align2::RIGHT_CENTER, now, font, ink(colour));
     let length = format!("/ {} s", clock_text(seen.transport.end_secs));
     let font = style::digits(theme::SIZE_BODY);
-    ui.painter().text(
+    let drawn = ui.painter().text(
         right + vec2(theme::GAP, 2.0),
         Align2::LEFT_CENTER,
         length,
         font,
         ink(theme::DIM),
     );
+    drawn.right()
 }
 
 /// Speeds that the buttons step through.

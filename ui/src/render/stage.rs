@@ -1,7 +1,7 @@
 //! From a snapshot of the rig to a scene: floor, ghosts, trails, the figure, the cursor.
 
 use glam::{DVec2, DVec3};
-use rig::{FigureView, Snapshot, ViewState};
+use rig::{FigureView, Snapshot, StretchView, ViewState};
 
 use super::camera::Camera;
 use super::figure::{self, Style};
@@ -90,6 +90,9 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
     if let (true, Some(samples), Some(figure)) = (look.ticks, &samples, shown) {
         let now = (seen.keys.as_slice(), seen.transport.secs);
         add_trails(&mut scene, samples, figure, look, now);
+        if look.editing {
+            add_strained_trails(&mut scene, samples, figure, seen);
+        }
     }
     structures::add(&mut scene, &seen.display);
     if let Some(figure) = shown {
@@ -101,6 +104,7 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
             Style::present(selected),
         );
         if look.editing {
+            add_strained_links(&mut scene, figure, seen);
             add_editing(&mut scene, figure);
         }
     }
@@ -129,6 +133,44 @@ fn add_trails(
         let ink = Ink::new(theme::SELECTED, Layer::Trail).faded(0.7);
         let always = [f64::NEG_INFINITY, f64::INFINITY];
         samples.add_trail(scene, link, always, ink, &key_secs);
+    }
+}
+
+/// Stretches of the clip in which a joint of a link is asked too much, with the link's place in the figure.
+fn strained(seen: &Snapshot) -> impl Iterator<Item = (usize, &StretchView)> {
+    let all = seen.feasibility.iter().flat_map(|view| view.stretches.iter());
+    all.filter_map(|stretch| Some((usize::from(stretch.link?), stretch)))
+}
+
+/// Where on its way a link is asked too much: of extremities around the present moment, of the selected link always.
+fn add_strained_trails(scene: &mut Scene, samples: &Samples, figure: &FigureView, seen: &Snapshot) {
+    let now_secs = seen.transport.secs;
+    let ink = Ink::new(theme::TOO_MUCH, Layer::Trail);
+    for (link, stretch) in strained(seen) {
+        let [from, to] = if figure.selected.map(usize::from) == Some(link) {
+            [stretch.from_secs, stretch.to_secs]
+        } else {
+            [
+                stretch.from_secs.max(now_secs - NEARBY_SECS),
+                stretch.to_secs.min(now_secs + NEARBY_SECS),
+            ]
+        };
+        if from < to {
+            samples.add_trail(scene, link, [from, to], ink, &[]);
+        }
+    }
+}
+
+/// The links that are asked too much at the present moment.
+fn add_strained_links(scene: &mut Scene, figure: &FigureView, seen: &Snapshot) {
+    let now_secs = seen.transport.secs;
+    let ink = Ink::new(theme::TOO_MUCH, Layer::Figure);
+    for (link, stretch) in strained(seen) {
+        if (stretch.from_secs..=stretch.to_secs).contains(&now_secs)
+            && let Some(placed) = figure.placed.get(link)
+        {
+            scene.stroke(placed.start, placed.end, theme::WIDTH_SELECTED, ink);
+        }
     }
 }
 

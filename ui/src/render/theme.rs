@@ -1,8 +1,9 @@
 //! The look, decided once: colours, type sizes, spacing. Plain numbers, so that pictures without a window
 //! and the window itself cannot drift apart.
 //!
-//! Three accents, each with one meaning: [`SELECTED`] is what the next action applies to, [`LIVE`] is what
-//! moves or answers now, [`FAULTED`] is a fault and nothing else. Everything else is grey on near-black.
+//! Four accents, each with one meaning: [`SELECTED`] is what the next action applies to, [`LIVE`] is what
+//! moves or answers now, [`TOO_MUCH`] is more than a servo can do or should bear, [`FAULTED`] is a fault and
+//! nothing else. Everything else is grey on near-black.
 //! Contrast against [`PANEL`] (WCAG 2.1 ratio): text 13, dim text 6, accents above 5.
 
 /// A colour as a screen takes it: sRGB, eight bits a channel.
@@ -43,6 +44,8 @@ pub const LINE: Rgb = Rgb(0xee, 0xf1, 0xf5);
 pub const SELECTED: Rgb = Rgb(0xff, 0xb4, 0x54);
 /// What moves, plays or answers now.
 pub const LIVE: Rgb = Rgb(0x45, 0xd6, 0xbd);
+/// More than a servo can do or should bear: too fast, too far, too hot. Nothing has failed yet.
+pub const TOO_MUCH: Rgb = Rgb(0xc9, 0x8b, 0xff);
 /// A fault, and nothing else.
 pub const FAULTED: Rgb = Rgb(0xff, 0x4b, 0x4b);
 
@@ -100,6 +103,7 @@ mod tests {
             ("dim", DIM, 5.0),
             ("selected", SELECTED, 5.0),
             ("live", LIVE, 5.0),
+            ("too much", TOO_MUCH, 5.0),
             ("faulted", FAULTED, 4.5),
         ] {
             for ground in [GROUND, PANEL, RAISED] {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
 use rig::{Command, Snapshot};
 use ui::panels::{canvas, style};
 use ui::render::film::write_png;
@@ -118,6 +119,28 @@ fn each_accent_has_one_meaning() {
             "the figure is the brightest thing on the ground"
         );
     }
+}
+
+#[test]
+fn what_the_puppet_cannot_do_is_seen_on_the_strip_and_the_path() {
+    if no_card() {
+        return;
+    }
+    let size = [1280.0, 720.0];
+    let playing = drawn(walker::playing(), size, "playing");
+    let strained = drawn(walker::strained(), size, "strained");
+    assert_eq!(
+        count(&playing, theme::TOO_MUCH),
+        0,
+        "violet where nothing is too much"
+    );
+    assert!(count(&strained, theme::TOO_MUCH) > 1200);
+    assert_eq!(count(&strained, theme::FAULTED), 0, "nothing has failed yet");
+    let mut harness = harness(walker::strained(), size, false);
+    harness.run_steps(2);
+    harness.get_by_label("slow to fit").click();
+    harness.run_steps(2);
+    assert_eq!(harness.state().said, [Command::SlowToFit]);
 }
 
 #[test]

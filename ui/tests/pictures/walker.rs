@@ -7,8 +7,8 @@ use motion::figure::{Figure, FigurePose, LinkPose, LinkSpec};
 use motion::{Clip, FigureKey, Keyframes};
 use ps300::display::Stroke;
 use rig::{
-    DeskKeyView, DeviceHealth, DeviceView, FigureView, JointView, KeyView, KineticsView, Note, NoteLevel,
-    PuppetState, PuppetView, Snapshot, TransportView, ViewState,
+    DeskKeyView, DeviceHealth, DeviceView, FeasibilityView, FigureView, JointView, KeyView, KineticsView,
+    Note, NoteLevel, PuppetState, PuppetView, Snapshot, StretchKind, StretchView, TransportView, ViewState,
 };
 
 /// Number, name, freedoms, length, children with their places.
@@ -335,6 +335,36 @@ pub(crate) fn playing() -> Snapshot {
     seen.desk.keys[6].lit = true;
     seen.desk.keys[7].lit = true;
     seen.desk.simulated_device = Some("dial-box".into());
+    seen
+}
+
+/// The same clip for a puppet that is not as quick: a forearm is asked too much of twice, a knee cannot bend so far.
+pub(crate) fn strained() -> Snapshot {
+    let mut seen = playing();
+    let stretch = |joint: &str, link, [from_secs, to_secs]: [f64; 2], kind, factor| StretchView {
+        from_secs,
+        to_secs,
+        joint: joint.into(),
+        link: Some(link),
+        kind,
+        factor,
+        slowable: kind != StretchKind::Reach,
+    };
+    seen.feasibility = Some(FeasibilityView {
+        progress: 1.0,
+        stretches: [
+            stretch("r_knee", 9, [0.3, 0.36], StretchKind::Reach, 1.1),
+            stretch("r_elbow", 3, [0.62, 1.02], StretchKind::Speed, 1.8),
+            stretch("r_shoulder_pitch", 2, [0.7, 0.95], StretchKind::Acceleration, 1.3),
+            stretch("r_elbow", 3, [1.7, 1.9], StretchKind::Speed, 1.2),
+        ]
+        .into(),
+        slow_down: 1.8,
+        ..FeasibilityView::default()
+    });
+    if let Some(figure) = &mut seen.figure {
+        figure.selected = Some(3);
+    }
     seen
 }
 
