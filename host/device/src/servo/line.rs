@@ -329,6 +329,16 @@ impl Line {
         self.transport.write(&self.out)
     }
 
+    /// Sends what is in the packet buffer and goes on overhearing: answers to what was sent before may still come.
+    pub(super) fn send_on(&mut self, now: Instant) -> Result<(), TransportError> {
+        self.sent = now;
+        self.counters.sent_bytes += self.out.len() as u64;
+        if let Some(decoder) = self.decoders.get_mut(self.speaking) {
+            decoder.sent(&self.out);
+        }
+        self.transport.write(&self.out)
+    }
+
     /// Throws away what has arrived, and any request that is open.
     pub(super) fn drain(&mut self, now: Instant) -> Result<(), TransportError> {
         self.abandon();

@@ -135,7 +135,8 @@ impl Calibrator {
             if joints.is_empty() {
                 continue;
             }
-            let mut line = Maintenance::new(ports.open(&ward.address, ward.baud)?, ward.baud)?;
+            let transport = ports.open(&ward.address, ward.baud)?;
+            let mut line = Maintenance::new(transport, ward.baud)?.knowing(profiles);
             line.release(&*begun.clock)?;
             begun.lines.push(line);
             for joint in joints {
@@ -158,6 +159,7 @@ impl Calibrator {
             });
         }
         let model = model.at_firmware(found.firmware).into_owned();
+        self.lines[line].loosen(&model, joint.id, &*self.clock)?;
         let mut seat = Seat {
             line,
             bearings: Bearings::default(),

@@ -209,7 +209,7 @@ impl Doctor {
 
     fn open(&mut self, ward: &Ward, baud: u32) -> Result<Maintenance, DoctorError> {
         let transport = self.ports.open(&ward.address, baud)?;
-        Ok(Maintenance::new(transport, baud)?)
+        Ok(Maintenance::new(transport, baud)?.knowing(&self.profiles))
     }
 
     fn row(

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use rig::maintenance::Role;
 use serde_json::{Map, json};
 
 use super::{LineArgs, failed};
@@ -15,15 +16,18 @@ Example:
   dialrig servo monitor --port /dev/ttyUSB0 --baud 1000000 1 2 3";
 
 /// What is read; a servo without one of them leaves it out.
-const REGISTERS: [(&str, &str); 5] = [
-    ("torque", "Torque Enable"),
-    ("position", "Present Position"),
-    ("velocity", "Present Velocity"),
-    ("voltage", "Present Input Voltage"),
-    ("temperature", "Present Temperature"),
+const REGISTERS: [(&str, Role); 8] = [
+    ("torque", Role::TorqueEnable),
+    ("position", Role::PresentPosition),
+    ("velocity", Role::PresentVelocity),
+    ("current", Role::PresentCurrent),
+    ("load", Role::PresentLoad),
+    ("voltage", Role::PresentVoltage),
+    ("temperature", Role::PresentTemperature),
+    ("error", Role::HardwareError),
 ];
 
-/// Torque, position, velocity, voltage and temperature, again and again
+/// Torque, position, velocity, current, load, voltage, temperature and errors, again and again
 ///
 /// Until Ctrl-C.
 #[derive(Debug, clap::Args)]
@@ -32,7 +36,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     line: LineArgs,
     /// Their ids
-    #[arg(required = true, value_name = "ID", value_parser = clap::value_parser!(u8).range(0..=252))]
+    #[arg(required = true, value_name = "ID", value_parser = super::id())]
     ids: Vec<u8>,
     /// Seconds between readings
     #[arg(long, value_name = "SECS", default_value_t = 0.5, value_parser = number::secs)]
@@ -54,16 +58,18 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
             let mut record = Map::new();
             record.insert("id".into(), json!(id));
             let mut words = Vec::new();
-            for (name, register) in REGISTERS {
-                for value in line.read(id, Some(register)).map_err(failed)? {
-                    let shown = value.value.unwrap_or(value.raw as f64);
-                    record.insert(name.into(), json!(shown));
-                    words.push(
-                        format!("{name} {} {}", number::short(shown), value.unit)
-                            .trim_end()
-                            .to_owned(),
-                    );
-                }
+            let roles = REGISTERS.map(|(_, role)| role);
+            for value in line.read_roles(id, &roles).map_err(failed)? {
+                let Some((name, _)) = REGISTERS.iter().find(|(_, role)| value.role == Some(*role)) else {
+                    continue;
+                };
+                let shown = value.value.unwrap_or(value.raw as f64);
+                record.insert((*name).into(), json!(shown));
+                words.push(
+                    format!("{name} {} {}", number::short(shown), value.unit)
+                        .trim_end()
+                        .to_owned(),
+                );
             }
             if console.json() {
                 console.record(&record)?;

@@ -1,6 +1,6 @@
 //! `dialrig servo ping`: who a servo is.
 
-use super::{LineArgs, failed, record};
+use super::{LineArgs, failed, tell};
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
 
@@ -15,7 +15,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     line: LineArgs,
     /// Their ids
-    #[arg(required = true, value_name = "ID", value_parser = clap::value_parser!(u8).range(0..=252))]
+    #[arg(required = true, value_name = "ID", value_parser = super::id())]
     ids: Vec<u8>,
 }
 
@@ -23,15 +23,7 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let mut line = args.line.open()?;
     for &id in &args.ids {
         let servo = line.ping(id).map_err(failed)?;
-        if console.json() {
-            console.record(&record(&servo))?;
-        } else {
-            let model = servo
-                .model
-                .clone()
-                .unwrap_or_else(|| format!("model number {}", servo.model_number));
-            console.line(format_args!("servo {id}: {model}, firmware {}", servo.firmware))?;
-        }
+        tell(&servo, console)?;
     }
     Ok(Exit::Done)
 }

@@ -20,13 +20,13 @@ pub(crate) struct Args {
 
 pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let mut line = args.line.open()?;
+    let baud = args.line.baud();
+    // Everybody at once first; then those whose makers keep torque where a broadcast would harm others.
     line.release().map_err(failed)?;
-    let found = line.scan(&[args.line.baud], &mut |_| {}).map_err(failed)?;
+    let found = line.scan(&[baud], &mut |_| {}).map_err(failed)?;
+    line.release().map_err(failed)?;
     if found.is_empty() {
-        let message = format!(
-            "no servo answered at {} baud, so nobody says whether torque is off",
-            args.line.baud
-        );
+        let message = format!("no servo answered at {baud} baud, so nobody says whether torque is off");
         return Err(Failure::Device { message, safe: false });
     }
     for servo in &found {
