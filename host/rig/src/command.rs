@@ -36,6 +36,8 @@ pub enum Command {
     View(ViewCommand),
     /// What the servo puppet does.
     Puppet(PuppetCommand),
+    /// Poses that hands give the puppet itself.
+    Teach(TeachCommand),
     /// Poses the puppet itself, joint by joint or by its ends.
     PuppetPose(PuppetPose),
     /// Gives the clip's keys other times, so that the puppet can do it; the path stays. One step of undo.
@@ -319,6 +321,22 @@ pub enum PuppetPose {
     FromMeasured,
     /// Takes over the pose that the clip shows at the present time, and goes along with it again.
     FromClip,
+}
+
+/// Teaching: torque is off, hands pose the puppet, and what its servos measure is stored.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TeachCommand {
+    /// Lets go of the puppet; from now on its own pose is the one on screen.
+    Begin,
+    /// Stores the measured pose at the present animation time: as a pose of the figure where the puppet follows one,
+    /// else of its joints.
+    Store {
+        /// The animation time then goes on by so much, seconds; 0 stays.
+        step_secs: f64,
+    },
+    /// The pose on screen is no longer the puppet's. Torque stays off.
+    End,
 }
 
 /// Orders to the puppet's player.

@@ -35,8 +35,8 @@ pub mod ward;
 mod wiring;
 
 pub use command::{
-    Command, EditCommand, KineticsMode, NetworkEdit, PoseCommand, PuppetCommand, PuppetPose, Side, Touch,
-    TransportCommand, ViewCommand,
+    Command, EditCommand, KineticsMode, NetworkEdit, PoseCommand, PuppetCommand, PuppetPose, Side,
+    TeachCommand, Touch, TransportCommand, ViewCommand,
 };
 pub use device_profiles::Profiles;
 pub use feasibility::{FeasibilityView, StretchKind, StretchView};

@@ -50,6 +50,8 @@ pub struct Snapshot {
     pub puppet: Option<PuppetView>,
     /// The puppet as it is posed on screen, if the show has one; it need not be where the servos are.
     pub puppet_pose: Option<PuppetPoseView>,
+    /// Hands are posing the puppet itself, and its pose is the one on screen ([`crate::TeachCommand`]).
+    pub teaching: bool,
     /// Whether the puppet can do the clip; `None` without a puppet.
     pub feasibility: Option<FeasibilityView>,
     /// Input devices, in order of their names.
@@ -178,6 +180,10 @@ impl Snapshot {
         self.desk.digest(digest);
         if let Some(puppet) = &self.puppet {
             puppet.digest(digest);
+        }
+        if self.teaching {
+            // Nothing where nobody teaches, so that older journals still digest alike.
+            digest.text("teaching");
         }
         if let Some(pose) = &self.puppet_pose {
             pose.angles_rad.iter().for_each(|angle| digest.real(*angle));

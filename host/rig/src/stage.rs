@@ -58,6 +58,12 @@ impl Stage {
         self.candidates.clear();
     }
 
+    /// Takes over a pose that comes from elsewhere, such as a puppet's own.
+    pub(crate) fn take_over(&mut self, take: impl FnOnce(&Figure, &mut FigurePose)) {
+        take(&self.figure, &mut self.pose);
+        self.changed();
+    }
+
     /// Does what the hand asks; says what was wrong with it otherwise and leaves the pose alone.
     pub(crate) fn apply(&mut self, command: &PoseCommand, view: &View) -> Result<(), String> {
         match *command {

@@ -5,10 +5,12 @@
 //! are known from the figure's own rest pose. A robot whose groups are its own links follows where synonyms name
 //! links of the figure: such a group takes the joints before it along, up to three, and the others rest.
 
+mod inverse;
+
 use std::sync::Arc;
 
 use device_profiles::{ProfileError, Profiles, PuppetGroup, PuppetProfile};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use motion::retarget::{GROUP_JOINTS_MAX, Group};
 use motion::{
     ChainError, Figure, FigureError, JointIndex, LinkIndex, LinkSpec, Placed, Retarget, RetargetError,
@@ -74,6 +76,8 @@ pub struct Body {
     /// For each link of the followed tree, the figure's link and the turn from the profile's axes to the figure's.
     leaders: Vec<(LinkIndex, DMat3)>,
     followers: Vec<Following>,
+    /// How the root's link lies in the base's frame.
+    base_from_root: DQuat,
 }
 
 /// Joints that follow one link.
@@ -82,6 +86,8 @@ struct Following {
     /// In the followed tree.
     link: LinkIndex,
     joints: Vec<JointIndex>,
+    /// How the link lies in the frame of the last of them.
+    joint_from_link: DQuat,
 }
 
 /// How link axes lie at rest in a figure, one matrix a link (`world_from_link` when everybody stands upright);
@@ -114,7 +120,11 @@ impl Body {
             .filter(|(_, joints)| !joints.is_empty())
             .filter_map(|(number, joints)| {
                 let link = tree.by_number(number)?;
-                Some(Following { link, joints })
+                Some(Following {
+                    link,
+                    joints,
+                    joint_from_link: turn_of(profile, &tree, link),
+                })
             })
             .collect();
         let groups: Vec<Group> = followers
@@ -122,7 +132,7 @@ impl Body {
             .map(|following| Group {
                 link: following.link,
                 joints: following.joints.clone(),
-                joint_from_link: turn_of(profile, &tree, following.link),
+                joint_from_link: following.joint_from_link,
             })
             .collect();
         // The first group is the root, and parents come first in a figure.
@@ -130,6 +140,7 @@ impl Body {
             .groups
             .first()
             .map(|group| (LinkIndex(0), tool(group).rotation));
+        let base_from_root = root.map_or(DQuat::IDENTITY, |(_, turn)| turn);
         let retarget = Retarget::new(Arc::new(tree), Arc::clone(&model.chain), root, &groups);
         let retarget = retarget.map_err(|source| BodyError::Retarget {
             puppet: puppet(),
@@ -140,6 +151,7 @@ impl Body {
             retarget,
             leaders,
             followers,
+            base_from_root,
         })
     }
 
@@ -299,12 +311,12 @@ fn joints_of(
 }
 
 /// How the link lies in the frame of its group's last joint.
-fn turn_of(profile: &PuppetProfile, tree: &Figure, link: LinkIndex) -> glam::DQuat {
+fn turn_of(profile: &PuppetProfile, tree: &Figure, link: LinkIndex) -> DQuat {
     let number = tree.link(link).map_or(0, |link| link.number as usize);
     profile
         .groups
         .get(number)
-        .map_or(glam::DQuat::IDENTITY, |group| tool(group).rotation)
+        .map_or(DQuat::IDENTITY, |group| tool(group).rotation)
 }
 
 /// What a group's link may be called.

@@ -145,6 +145,11 @@ impl Seat {
         })
     }
 
+    /// How it follows the show's figure, if it does.
+    pub(crate) fn body(&self) -> Option<&Body> {
+        self.body.as_ref()
+    }
+
     /// What is known of the puppet.
     pub(crate) fn profile(&self) -> &PuppetProfile {
         &self.profile

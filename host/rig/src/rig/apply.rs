@@ -40,7 +40,11 @@ impl Rig {
                 Ok(())
             }
             Command::View(view) => self.view.apply(view),
-            Command::Puppet(order) => self.order_puppet(order),
+            Command::Puppet(order) => {
+                self.end_teaching_by(order);
+                self.order_puppet(order)
+            }
+            Command::Teach(teach) => self.teach(teach),
             Command::PuppetPose(pose) => self.pose_puppet(pose),
             Command::SlowToFit => self.slow_to_fit(),
             Command::Save => self.save(),

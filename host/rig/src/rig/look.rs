@@ -43,6 +43,7 @@ impl Rig {
                 .desk
                 .view(self.wiring.panel(), now_secs, self.inputs.simulated_desk()),
             puppet: self.puppet.as_mut().map(|puppet| puppet.view(self.now)),
+            teaching: self.is_teaching(),
             puppet_pose: self.rehearsing.as_mut().map(rehearse::Rehearsing::pose_view),
             feasibility: self.rehearsing.as_ref().map(rehearse::Rehearsing::feasibility),
             devices: self.inputs.view(),

@@ -8,6 +8,7 @@ mod apply;
 mod look;
 mod network;
 mod rehearse;
+mod teach;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -85,6 +86,8 @@ pub struct Rig {
     inputs: Inputs,
     puppet: Option<Seat>,
     rehearsing: Option<Rehearsing>,
+    /// The pose on screen is the puppet's own.
+    teaching: bool,
     coefficient: usize,
     notes: Notes,
     began: Instant,
@@ -132,6 +135,7 @@ impl Rig {
             inputs,
             puppet,
             rehearsing,
+            teaching: false,
             coefficient: 1,
             notes: Notes::default(),
             began,
@@ -169,6 +173,7 @@ impl Rig {
         self.take_requests();
         self.advance_time(elapsed_secs);
         self.drive_puppet();
+        self.show_taught();
         self.show_on_devices();
         self.autosave_if_due();
         self.steps += 1;
