@@ -86,7 +86,8 @@ impl Servo {
 
     /// What the supply has when nothing is wrong with it.
     pub(super) fn nominal_volts(&self) -> f64 {
-        self.unit.supply_volts.unwrap_or_else(|| self.middle_volts())
+        let rated = self.unit.supply_volts.or(self.facts.rated_volts);
+        rated.unwrap_or_else(|| self.middle_volts())
     }
 
     fn middle_volts(&self) -> f64 {

@@ -47,6 +47,8 @@ pub(super) struct Facts {
     pub(super) broadcast_ping: bool,
     pub(super) eeprom_deaf_ns_per_byte: u64,
     pub(super) alarm_bits: AlarmBits,
+    /// What the motor is made for.
+    pub(super) rated_volts: Option<f64>,
 }
 
 /// A servo on the bus.
@@ -348,6 +350,7 @@ impl Facts {
             broadcast_ping: profile.broadcast_ping,
             eeprom_deaf_ns_per_byte: u64::from(profile.eeprom_deaf_us_per_byte.unwrap_or(0)) * 1000,
             alarm_bits: AlarmBits::of(profile),
+            rated_volts: profile.motor.as_ref().map(|motor| motor.rated_voltage_v),
         }
     }
 }

@@ -9,6 +9,7 @@ mod page;
 mod physics;
 mod protocol1;
 mod spoken;
+mod switches;
 mod timing;
 mod troubles;
 mod vectors;

@@ -43,7 +43,7 @@ pub struct Unit {
     pub turnaround_us: u32,
     /// The servo's clock is this many millionths fast.
     pub drift_ppm: i32,
-    /// Supply in volts; none: in the middle of what the model allows.
+    /// Supply in volts; none: what the motor is made for, or in the middle of what the model allows.
     pub supply_volts: Option<f64>,
     /// What reads of undefined bytes give.
     pub gaps: Gaps,

@@ -9,6 +9,7 @@ use firmware_sim::servo_bus::{
 use firmware_sim::{Fault, ServoBus};
 
 use super::eeprom::Eeprom;
+use super::orders::nobody;
 use super::{ServeError, Served};
 
 /// One model under several ids, as `MODEL:ID[-ID]`.
@@ -37,6 +38,14 @@ pub enum ServoSpecError {
     /// It does not fit the bus.
     #[error(transparent)]
     Add(#[from] AddError),
+    /// A fault of a servo that is not there.
+    #[error("fault `{fault}`: {why}")]
+    Fault {
+        /// As it was given.
+        fault: String,
+        /// Who is there.
+        why: String,
+    },
     /// Its memory cannot be brought back.
     #[error(transparent)]
     Eeprom(#[from] ServeError),
@@ -151,6 +160,12 @@ impl BusPlan {
             None => None,
         };
         for fault in &self.faults {
+            if fault.at_us.is_none() {
+                nobody(&bus, fault).map_err(|why| ServoSpecError::Fault {
+                    fault: fault.to_string(),
+                    why,
+                })?;
+            }
             bus.inject(0, fault);
         }
         Ok(Served::Bus(Box::new(bus), self.baud, eeprom))

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use firmware_sim::servo_bus::Servo;
+use firmware_sim::servo_bus::{FaultKind, Servo};
 use firmware_sim::{Fault, ServoBus};
 
 use super::Served;
@@ -26,10 +26,25 @@ impl Served {
             text => {
                 let fault =
                     Fault::parse(text).map_err(|error| format!("`{text}`: {error}; an order is {WORDS}"))?;
+                // Later there may be one with that number.
+                if fault.at_us.is_none() {
+                    nobody(bus, &fault)?;
+                }
                 bus.inject(now_us, &fault);
                 Ok(fault.to_string())
             }
         }
+    }
+}
+
+/// Refuses a fault of a servo that is not there.
+pub(super) fn nobody(bus: &ServoBus, fault: &Fault) -> Result<(), String> {
+    match fault.kind {
+        FaultKind::Servo(id, _) if bus.servo(id).is_none() => {
+            let ids: Vec<String> = bus.servos().iter().map(|servo| servo.id().to_string()).collect();
+            Err(format!("there is no servo {id}; there are {}", ids.join(", ")))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -176,6 +176,12 @@ fn orders_are_faults_and_two_words() {
     assert!(lines.contains("xl330-m288"), "{lines}");
     let why = served.order(20, "servo 2 quiet").expect_err("no such fault");
     assert!(why.contains("column 9") && why.contains("`mend`"), "{why}");
+    let why = served.order(25, "servo 9 silent").expect_err("no such servo");
+    assert_eq!(why, "there is no servo 9; there are 1, 2, 3, 7");
+    assert!(
+        served.order(26, "servo 9 silent at 2s").is_ok(),
+        "by then there may be one"
+    );
     assert_eq!(served.order(30, "mend"), Ok("mended".to_owned()));
     let mut dials = Served::DialBox(Box::new(SgiDialBox::new(Options::default())));
     assert!(dials.order(0, "mend").is_err());

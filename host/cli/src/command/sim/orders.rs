@@ -1,7 +1,7 @@
 //! Lines of standard input as orders, without ever waiting for one.
 
-use std::io::{BufRead, IsTerminal};
-use std::sync::mpsc::{Receiver, sync_channel};
+use std::io::IsTerminal;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -12,6 +12,8 @@ use rustix::termios::tcgetpgrp;
 const WAITING: usize = 64;
 /// How often a job in the background looks whether it has come to the front.
 const LOOK: Duration = Duration::from_millis(200);
+/// Bytes taken at once.
+const READ_BYTES: usize = 4096;
 
 /// Orders as they come.
 pub(super) struct Orders(Receiver<String>);
@@ -21,16 +23,17 @@ impl Orders {
     pub(super) fn listen() -> Self {
         let (sender, receiver) = sync_channel(WAITING);
         std::thread::spawn(move || {
-            let mut line = String::new();
-            while let Some(read) = next_line(&mut line) {
-                if !read {
-                    continue;
-                }
-                let order = line.trim();
-                if !order.is_empty() && !order.starts_with('#') && sender.send(order.to_owned()).is_err() {
-                    return;
+            let mut typed = Vec::new();
+            while let Some(more) = typed_now() {
+                typed.extend(more);
+                while let Some(end) = typed.iter().position(|&byte| byte == b'\n') {
+                    let line: Vec<u8> = typed.drain(..=end).collect();
+                    if !send(&line, &sender) {
+                        return;
+                    }
                 }
             }
+            send(&typed, &sender);
         });
         Self(receiver)
     }
@@ -41,13 +44,20 @@ impl Orders {
     }
 }
 
-/// Waits a while for a line: whether it has come; none at the end of input.
-fn next_line(line: &mut String) -> Option<bool> {
+/// Passes a line on unless there is nothing in it. False: nobody listens any more.
+fn send(line: &[u8], sender: &SyncSender<String>) -> bool {
+    let text = String::from_utf8_lossy(line);
+    let order = text.trim();
+    order.is_empty() || order.starts_with('#') || sender.send(order.to_owned()).is_ok()
+}
+
+/// Waits a while for what is typed: nothing, if nothing was; none at the end of input.
+fn typed_now() -> Option<Vec<u8>> {
     let stdin = std::io::stdin();
     // A job in the background that reads its terminal is stopped (SIGTTIN), and its servos with it.
     if stdin.is_terminal() && tcgetpgrp(&stdin).is_ok_and(|front| front != getpgrp()) {
         std::thread::park_timeout(LOOK);
-        return Some(false);
+        return Some(Vec::new());
     }
     let mut ready = [PollFd::new(&stdin, PollFlags::IN)];
     let wait = Timespec {
@@ -55,11 +65,13 @@ fn next_line(line: &mut String) -> Option<bool> {
         tv_nsec: LOOK.subsec_nanos().into(),
     };
     if !poll(&mut ready, Some(&wait)).is_ok_and(|count| count > 0) {
-        return Some(false);
+        return Some(Vec::new());
     }
-    line.clear();
-    match stdin.lock().read_line(line) {
-        Ok(0) | Err(_) => None,
-        Ok(_) => Some(true),
-    }
+    // Past the standard library's buffer, which `poll` does not see.
+    let mut bytes = vec![0; READ_BYTES];
+    let count = rustix::io::read(&stdin, &mut bytes)
+        .ok()
+        .filter(|&count| count > 0)?;
+    bytes.truncate(count);
+    Some(bytes)
 }
