@@ -8,7 +8,7 @@ use device_profiles::{HardwareFault, ServoProfile};
 
 /// How long full effort lasts before it counts as overload. Ours; the maker says "a certain time".
 const OVERLOAD_STEPS: u32 = 1000;
-/// Share of what the motor has that counts as full effort.
+/// Share of what the motor has at its present supply that counts as full effort.
 const OVERLOAD_EFFORT: f64 = 0.98;
 /// Volts lost in the cable at full effort. Ours.
 const CABLE_DROP_VOLTS: f64 = 0.4;
@@ -102,7 +102,7 @@ impl Servo {
 
     /// Once a plant step: measures, latches, shuts down.
     pub(super) fn watch_the_hardware(&mut self) {
-        let strained = self.torque_is_on() && self.plant.effort.abs() >= OVERLOAD_EFFORT;
+        let strained = self.torque_is_on() && self.plant.strain >= OVERLOAD_EFFORT;
         self.strained_steps = if strained { self.strained_steps + 1 } else { 0 };
         let tenths = self.voltage_tenths();
         let bad_voltage =

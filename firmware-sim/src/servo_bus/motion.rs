@@ -30,7 +30,7 @@ impl Servo {
             },
             Mode::Current => Order::Current {
                 counts,
-                share: sign * self.goal_share(),
+                share: sign * self.goal_amperes() / self.plant.motor.stall_a,
             },
             Mode::Effort => Order::Duty {
                 counts,
@@ -42,6 +42,14 @@ impl Servo {
                 gains: self.gains(),
             },
         }
+    }
+
+    fn goal_amperes(&self) -> f64 {
+        let unit = self
+            .table
+            .row(Reg::GoalCurrent)
+            .and_then(|row| row.unit_per_count);
+        self.table.get(Reg::GoalCurrent) as f64 * unit.unwrap_or(0.0)
     }
 
     /// The position loop's gains. X series: P/128, I/65536, D/16 and feed forward/4 on counts, of 885 ("Position PID

@@ -68,6 +68,10 @@ pub(super) struct Plant {
     pub(super) velocity: f64,
     /// −1 to 1 of what the motor can pull.
     pub(super) effort: f64,
+    /// Share of the supply that the motor gets, −1 to 1.
+    pub(super) duty: f64,
+    /// How near it is to standing still under all it has, 0 to 1.
+    pub(super) strain: f64,
     /// What it draws from the supply, amperes.
     pub(super) supply_a: f64,
     pub(super) heat: Heat,
@@ -108,6 +112,8 @@ impl Plant {
             position,
             velocity: 0.0,
             effort: 0.0,
+            duty: 0.0,
+            strain: 0.0,
             supply_a: motor.standby_a,
             heat: Heat::default(),
             load: Load::default(),
@@ -150,11 +156,14 @@ impl Plant {
                 ideal.follow(order.counts(), stuck);
                 let effort = ideal.effort() - outside_nm / self.motor.stall_nm;
                 self.effort = effort.clamp(-1.0, 1.0);
+                (self.duty, self.strain) = (self.effort, self.effort.abs());
                 self.supply_a = self.motor.standby_a + self.effort.abs() * self.motor.stall_a;
             }
             Body::Real(real) => {
                 let outcome = real.drive(order, encoder, volts, outside_nm, inertia, stuck, rad_per_count);
                 self.effort = (outcome.amperes / self.motor.stall_a).clamp(-1.0, 1.0);
+                self.duty = outcome.duty;
+                self.strain = outcome.amperes.abs() * self.motor.ohms / volts.max(1.0);
                 self.supply_a = self.motor.standby_a + (outcome.amperes * outcome.duty).max(0.0);
             }
         }
@@ -182,7 +191,7 @@ impl Plant {
             }
             Body::Real(real) => real.coast(outside_nm, inertia, self.rad_per_count),
         }
-        self.effort = 0.0;
+        (self.effort, self.duty, self.strain) = (0.0, 0.0, 0.0);
         self.supply_a = self.motor.standby_a;
         self.moved_from(before, outside_nm);
     }

@@ -9,10 +9,8 @@ use super::trajectory::Kind;
 const FOLLOWING_ERROR_COUNTS: f64 = 200.0;
 /// Largest distance from the goal that counts as being there, counts. Ours.
 const IN_POSITION_COUNTS: i64 = 8;
-/// Full scale of Present PWM, 0.113 % a count.
-const PWM_FULL: f64 = 885.0;
-/// Full scale of Present Load, 0.1 % a count.
-const LOAD_FULL: f64 = 1000.0;
+/// Share of all there is in a count of load, where the profile does not say.
+const LOAD_UNIT: f64 = 0.001;
 
 /// Everything `fresh` knows.
 const MEASURED: &[Reg] = &[
@@ -44,20 +42,17 @@ impl Servo {
     pub(super) fn fresh(&self, reg: Reg, at_ns: u64) -> Option<i64> {
         let sign = if self.is_reversed() { -1.0 } else { 1.0 };
         let speed = |counts: f64| (sign * counts / self.facts.speed_unit).round() as i64;
-        let scaled = |full: f64| (sign * self.plant.effort * full).round() as i64;
+        let in_counts = |value: f64| {
+            let unit = self.table.row(reg).and_then(|row| row.unit_per_count);
+            (sign * value / unit.unwrap_or(LOAD_UNIT)).round() as i64
+        };
         Some(match reg {
             Reg::RealtimeTick => self.tick_ms(at_ns),
             Reg::Moving => i64::from(speed(self.plant.velocity).abs() > self.table.get(Reg::MovingThreshold)),
             Reg::MovingStatus => self.moving_status(at_ns),
-            Reg::PresentPwm => scaled(PWM_FULL),
-            // Full effort draws what the factory's Current Limit allows.
-            Reg::PresentCurrent => scaled(
-                self.table
-                    .row(Reg::CurrentLimit)
-                    .and_then(|row| row.init)
-                    .unwrap_or(0) as f64,
-            ),
-            Reg::PresentLoad => scaled(LOAD_FULL),
+            Reg::PresentPwm => in_counts(self.plant.duty),
+            Reg::PresentCurrent => in_counts(self.plant.effort * self.plant.motor.stall_a),
+            Reg::PresentLoad => in_counts(self.plant.effort),
             Reg::PresentVelocity => speed(self.plant.velocity),
             Reg::PresentPosition => self.present_counts(),
             Reg::VelocityTrajectory => speed(self.trajectory(at_ns).0.velocity),

@@ -214,6 +214,30 @@ fn play_shows_at_the_horn_and_a_dry_gear_stays_where_it_is() {
 }
 
 #[test]
+fn a_jammed_motor_overloads_heats_and_lets_go() {
+    let mut host = real(1);
+    inject(&mut host, "servo 1 stuck");
+    host.drive(1, 3500);
+    host.wait(500);
+    let motor = host.bus.servo(1).expect("there").motor();
+    let amperes = host.bus.servo(1).expect("there").supply_amperes();
+    assert!(
+        (0.7..1.1).contains(&(amperes / motor.stall_a)),
+        "stall current at its supply: {amperes}"
+    );
+    assert_eq!(host.register(1, "Present PWM"), 885);
+    let winding = host.bus.servo(1).expect("there").winding_c();
+    assert!(winding > 25.5, "{winding}");
+    host.wait(1500);
+    assert_eq!(host.register(1, "Hardware Error Status"), 1 << 5);
+    assert!(!host.bus.servo(1).expect("there").torque_is_on());
+    // What was stored in the winding goes on into the housing.
+    let housing = host.bus.servo(1).expect("there").temperature_c();
+    host.wait(10_000);
+    assert!(host.bus.servo(1).expect("there").temperature_c() > housing);
+}
+
+#[test]
 fn current_mode_is_a_torque() {
     let profiles = Profiles::builtin();
     let mut bus = ServoBus::new(BusOptions::default());
@@ -236,7 +260,7 @@ fn current_mode_is_a_torque() {
     let bytes = host.ask(&read(1, 126, 2));
     let milliamperes = i16::from_le_bytes([bytes[9], bytes[10]]);
     assert!(
-        (200..=400).contains(&milliamperes),
+        (297..=303).contains(&milliamperes),
         "what was asked for: {milliamperes}"
     );
 }
