@@ -68,10 +68,13 @@ impl ServoBus {
         self.advance(now_ns);
     }
 
-    /// Why `fault` would do nothing on this bus, if so.
+    /// Why `fault` would do nothing on this bus, if so. Of a later one nobody can tell: by then there may be a servo
+    /// with that number.
     pub fn misfit(&self, fault: &Fault) -> Option<String> {
         match fault.kind {
-            FaultKind::Servo(id, _) if self.servo(id).is_none() => Some(self.nobody(id)),
+            FaultKind::Servo(id, _) if fault.at_us.is_none() && self.servo(id).is_none() => {
+                Some(self.nobody(id))
+            }
             _ => None,
         }
     }

@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use device_profiles::{ProfileError, Profiles};
 use firmware_sim::servo_bus::{
-    Absent, Adapter, AddError, BadCrc, BusOptions, Gaps, InnerHeader, Precedence, Unit, WireTime,
+    Absent, Adapter, AddError, BadCrc, BusOptions, Gaps, InnerHeader, PlantKind, Precedence, Unit, WireTime,
 };
 use firmware_sim::{Fault, ServoBus};
 
 use super::eeprom::Eeprom;
-use super::orders::nobody;
 use super::{ServeError, Served};
 
 /// One model under several ids, as `MODEL:ID[-ID]`.
@@ -109,6 +108,8 @@ pub struct BusPlan {
     pub adapter: Option<Adapter>,
     /// What the documents leave open.
     pub habits: Habits,
+    /// What shafts are moved by.
+    pub shafts: PlantKind,
     /// Decides what random faults hit.
     pub seed: u64,
     /// What goes wrong; times count from the start.
@@ -127,6 +128,7 @@ impl BusPlan {
             echo: false,
             adapter: None,
             habits: Habits::default(),
+            shafts: PlantKind::default(),
             seed: 0,
             faults: Vec::new(),
             eeprom: None,
@@ -149,6 +151,7 @@ impl BusPlan {
             for id in spec.first..=spec.last {
                 let unit = Unit {
                     gaps: self.habits.gaps,
+                    plant: self.shafts,
                     precedence: self.habits.precedence,
                     ..Unit::new(id)
                 };
@@ -160,11 +163,9 @@ impl BusPlan {
             None => None,
         };
         for fault in &self.faults {
-            if fault.at_us.is_none() {
-                nobody(&bus, fault).map_err(|why| ServoSpecError::Fault {
-                    fault: fault.to_string(),
-                    why,
-                })?;
+            if let Some(why) = bus.misfit(fault) {
+                let fault = fault.to_string();
+                return Err(ServoSpecError::Fault { fault, why });
             }
             bus.inject(0, fault);
         }

@@ -19,7 +19,7 @@ pub use served::Served;
 // What a served device is told with and tells, for programs that must not know the firmware itself.
 pub use firmware_sim::dial_box::Output;
 pub use firmware_sim::script::ScriptError;
-pub use firmware_sim::servo_bus::{Absent, BadCrc, Gaps, InnerHeader, Precedence, WireTime};
+pub use firmware_sim::servo_bus::{Absent, BadCrc, Gaps, InnerHeader, PlantKind, Precedence, WireTime};
 pub use firmware_sim::{Fault, Script};
 
 use std::io;

@@ -2,49 +2,38 @@
 
 use std::fmt::Write;
 
-use firmware_sim::servo_bus::{FaultKind, Servo};
-use firmware_sim::{Fault, ServoBus};
+use firmware_sim::servo_bus::{Servo, Spoken};
+use firmware_sim::{Firmware, ServoBus};
 
 use super::Served;
 
 /// What a bus understands beside faults.
-const WORDS: &str = "a fault such as `servo 3 stuck for 2s`, `mend` or `servos`";
+const WORDS: &str =
+    "a fault such as `servo 3 stuck for 2s`, `mend`, a hand such as `hand on 3 turns to 30 deg`, or `servos`";
 
 impl Served {
     /// Carries out `order`; what there is to say to it, or why not. To a bus every fault is an order; `mend` ends them,
-    /// `servos` tells how the servos are. A box or a tablet has hands only by its script.
+    /// `hand on N` lays a hand on a horn, `servos` tells how the servos are. A box or a tablet has hands only by its script.
     pub(super) fn order(&mut self, now_us: u64, order: &str) -> Result<String, String> {
         let Self::Bus(bus, ..) = self else {
             return Err("expected no orders: hands on this device come from --script".to_owned());
         };
-        match order.trim() {
-            "mend" => {
-                bus.mend(now_us);
-                Ok("mended".to_owned())
-            }
-            "servos" => Ok(servos(bus)),
-            text => {
-                let fault =
-                    Fault::parse(text).map_err(|error| format!("`{text}`: {error}; an order is {WORDS}"))?;
-                // Later there may be one with that number.
-                if fault.at_us.is_none() {
-                    nobody(bus, &fault)?;
-                }
-                bus.inject(now_us, &fault);
-                Ok(fault.to_string())
-            }
+        let text = order.trim();
+        if text == "servos" {
+            // Nothing is said to them; they only come up to now.
+            bus.receive(now_us, &[]);
+            return Ok(servos(bus));
         }
-    }
-}
-
-/// Refuses a fault of a servo that is not there.
-pub(super) fn nobody(bus: &ServoBus, fault: &Fault) -> Result<(), String> {
-    match fault.kind {
-        FaultKind::Servo(id, _) if bus.servo(id).is_none() => {
-            let ids: Vec<String> = bus.servos().iter().map(|servo| servo.id().to_string()).collect();
-            Err(format!("there is no servo {id}; there are {}", ids.join(", ")))
-        }
-        _ => Ok(()),
+        let spoken =
+            Spoken::parse(text).map_err(|error| format!("`{text}`: {error}; an order is {WORDS}"))?;
+        let Some(spoken) = spoken else {
+            return Ok(String::new());
+        };
+        bus.obey(now_us, &spoken)?;
+        Ok(match spoken {
+            Spoken::Mend => "mended".to_owned(),
+            done => done.to_string(),
+        })
     }
 }
 

@@ -168,7 +168,7 @@ fn two_servos_of_one_number_have_a_memory_each() {
 }
 
 #[test]
-fn orders_are_faults_and_two_words() {
+fn orders_are_faults_hands_and_two_words() {
     let mut served = bus(None);
     assert_eq!(served.order(0, "servo 2 silent"), Ok("servo 2 silent".to_owned()));
     let lines = served.order(10, "servos").expect("a table");
@@ -177,12 +177,21 @@ fn orders_are_faults_and_two_words() {
     let why = served.order(20, "servo 2 quiet").expect_err("no such fault");
     assert!(why.contains("column 9") && why.contains("`mend`"), "{why}");
     let why = served.order(25, "servo 9 silent").expect_err("no such servo");
-    assert_eq!(why, "there is no servo 9; there are 1, 2, 3, 7");
+    assert_eq!(why, "there is no servo 9; there are: 1, 2, 3, 7");
     assert!(
         served.order(26, "servo 9 silent at 2s").is_ok(),
         "by then there may be one"
     );
     assert_eq!(served.order(30, "mend"), Ok("mended".to_owned()));
+    assert!(served.order(40, "hand on 2 turns to 20 deg over 100ms").is_ok());
+    let lines = served.order(500_000, "servos").expect("a table");
+    assert!(
+        lines
+            .lines()
+            .nth(1)
+            .is_some_and(|line| line.contains(" 20.00 deg")),
+        "{lines}"
+    );
     let mut dials = Served::DialBox(Box::new(SgiDialBox::new(Options::default())));
     assert!(dials.order(0, "mend").is_err());
 }

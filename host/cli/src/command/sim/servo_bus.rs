@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use bench::serve::{
-    Absent, BadCrc, BusPlan, Fault, Gaps, Habits, InnerHeader, Precedence, ServoSpec, WireTime,
+    Absent, BadCrc, BusPlan, Fault, Gaps, Habits, InnerHeader, PlantKind, Precedence, ServoSpec, WireTime,
 };
 use clap::ValueEnum;
 
@@ -18,10 +18,11 @@ Examples:
   dialrig sim servo-bus --servo XL430-W250:1 --tcp 127.0.0.1:7000 --fault 'servo 1 stuck at 2s'
   dialrig sim servo-bus --servo STS3215:1-6,AX-12A:11-13 --baud 1000000 --pty /tmp/bus --eeprom ./memories
 
-Orders may be typed while it runs, one a line: a fault, `mend` to end them all, `servos` for how the servos are.
+Orders may be typed while it runs, one a line: a fault, `mend` to end them all, `hand on 3 turns to 30 deg over 1s`,
+`servos` for how the servos are.
 
 Faults: `servo N stuck`, `servo N silent`, `servo N hot`, `servo N error BITS`, `servo N reboot`,
-`cable cut after N`, `drop P%`, `late TIME`, `noise`, `brownout`, `echo` and more (docs/cli.md);
+`cable cut after N`, `drop P%`, `late TIME`, `noise`, `brownout`, `echo` and more (docs/simulator.md);
 each with `at TIME`, `for TIME` or `once`.";
 
 /// Dynamixel and Feetech servos on one line, with wire time, limits and faults
@@ -47,6 +48,9 @@ pub(crate) struct Args {
     /// Decides what random faults hit
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    /// Whether shafts follow their trajectory, or are moved by motors with torque, inertia and friction
+    #[arg(long, value_enum, default_value_t = Shafts::Ideal)]
+    shafts: Shafts,
     /// What servos do behind one that does not answer its part of a group read: silence, or the time after which
     /// the next one answers
     #[arg(long, value_name = "silence|TIME", default_value = "silence", value_parser = absent)]
@@ -78,6 +82,15 @@ enum Wire {
     Real,
     /// Answers are there at once.
     None,
+}
+
+/// What shafts are moved by.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Shafts {
+    /// Follow the trajectory smoothly, never faster.
+    Ideal,
+    /// Motors with torque, inertia and friction.
+    Real,
 }
 
 /// A packet whose checksum is wrong.
@@ -173,6 +186,10 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         baud: args.baud,
         wire,
         habits: args.habits(),
+        shafts: match args.shafts {
+            Shafts::Ideal => PlantKind::Ideal,
+            Shafts::Real => PlantKind::Real,
+        },
         seed: args.seed,
         faults,
         eeprom: args.eeprom.clone(),
