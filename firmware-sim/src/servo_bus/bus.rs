@@ -210,10 +210,12 @@ impl ServoBus {
 
     /// Packets of the host that no servo could read.
     pub fn dropped_packets(&self) -> u64 {
-        let speaks = |framing| self.servos.iter().any(|servo| servo.framing() == framing);
-        let count = |framing, dropped| if speaks(framing) { dropped } else { 0 };
-        count(Framing::Dynamixel2, self.receivers.dynamixel2.dropped)
-            + count(Framing::Summed, self.receivers.summed.dropped)
+        self.receivers.dynamixel2.dropped + self.receivers.summed.dropped
+    }
+
+    /// Whether a servo of the bus hears packets put together like this.
+    fn speaks(&self, framing: Framing) -> bool {
+        self.servos.iter().any(|servo| servo.framing() == framing)
     }
 
     pub(super) fn catch_up(&mut self, now_us: u64) -> u64 {
@@ -256,6 +258,9 @@ impl ServoBus {
         let value = self.through_noise(None, byte.value);
         let mut params = std::mem::take(&mut self.params);
         for framing in [Framing::Dynamixel2, Framing::Summed] {
+            if !self.speaks(framing) {
+                continue;
+            }
             params.clear();
             if let Some(heard) = self
                 .receivers

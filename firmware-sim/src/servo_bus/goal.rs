@@ -131,7 +131,7 @@ impl Servo {
     }
 
     /// Goal Position; Feetech's servos go no further than their limits, whatever they are told.
-    fn goal_counts(&self) -> i64 {
+    pub(super) fn goal_counts(&self) -> i64 {
         let goal = self.table.get(Reg::GoalPosition);
         let (min, max) = (self.table.get(Reg::MinPosition), self.table.get(Reg::MaxPosition));
         if self.is_feetech() && min < max {

@@ -24,6 +24,7 @@ const MEASURED: &[Reg] = &[
     Reg::PresentPosition,
     Reg::VelocityTrajectory,
     Reg::PositionTrajectory,
+    Reg::TargetPosition,
     Reg::PresentInputVoltage,
     Reg::PresentTemperature,
 ];
@@ -57,6 +58,7 @@ impl Servo {
             Reg::PresentPosition => self.present_counts(),
             Reg::VelocityTrajectory => speed(self.trajectory(at_ns).0.velocity),
             Reg::PositionTrajectory => self.register_counts(self.trajectory(at_ns).0.position),
+            Reg::TargetPosition => self.goal_counts(),
             Reg::PresentInputVoltage => self.voltage_tenths(),
             Reg::PresentTemperature => self.plant.heat.housing_c.round() as i64,
             _ => return None,

@@ -77,6 +77,7 @@ known_registers! {
     VelocityTrajectory = Named("Velocity Trajectory"),
     PositionTrajectory = Named("Position Trajectory"),
     BackupReady = Named("Backup Ready"),
+    TargetPosition = Named("Target Position"),
     Punch = Named("Punch"),
     StartupForce = Named("Minimum Startup Force"),
     ClockwiseSlope = Named("CW Compliance Slope"),

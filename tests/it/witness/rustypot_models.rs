@@ -17,7 +17,7 @@ use std::time::Duration;
 const IDS: [u8; 3] = [1, 2, 3];
 
 /// Each model with the definition it is driven by.
-const MODELS: [(&str, ServoDefinition); 11] = [
+const MODELS: [(&str, ServoDefinition); 12] = [
     ("xl330-m288", xl330::DEFINITION),
     ("xl330-m077", xl330::DEFINITION),
     ("xl430-w250", xl430::DEFINITION),
@@ -29,6 +29,7 @@ const MODELS: [(&str, ServoDefinition); 11] = [
     ("ax-12a", ax::DEFINITION),
     ("xl-320", xl320::DEFINITION),
     ("sts3215", sts3215::DEFINITION),
+    ("sts3250", sts3215::DEFINITION),
     ("scs0009", scs0009::DEFINITION),
 ];
 

@@ -1,7 +1,7 @@
 //! The words of a fault's text, each with its column, and what stands where another was expected.
 
 use super::FaultError;
-use crate::servo_bus::dynamixel2::packet::ID_MAX;
+use crate::servo_bus::summed::packet::ID_MAX;
 use device_profiles::Role;
 
 /// Longest time a fault may name, microseconds: eleven days.
@@ -78,7 +78,7 @@ impl<'a> Words<'a> {
     pub(in crate::servo_bus) fn id(&mut self) -> Result<u8, FaultError> {
         let word = self.next().and_then(|word| word.parse().ok());
         word.filter(|&id| id <= ID_MAX)
-            .ok_or_else(|| self.wrong("a number from 0 to 252"))
+            .ok_or_else(|| self.wrong("a number from 0 to 253"))
     }
 
     /// What a register is for, as profiles say it.

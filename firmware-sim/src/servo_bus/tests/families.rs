@@ -3,6 +3,7 @@
 use super::*;
 use crate::servo_bus::unit::Unit;
 use device_profiles::{Role, ServoProfile, ServoProtocol, WordOrder};
+use proptest::prelude::*;
 
 /// All shipped models.
 fn models() -> Vec<ServoProfile> {
@@ -299,5 +300,78 @@ fn a_servo_as_it_comes_out_of_its_box() {
         let profile = profiles.servo(model).expect("shipped");
         let unit = Unit::factory(profile);
         assert_eq!((unit.id, unit.baud), (1, Some(baud)), "{model}");
+    }
+}
+
+#[test]
+fn two_of_one_number_talk_over_each_other() {
+    for profile in models() {
+        let mut host = bus_with(&profile, &[5, 5]);
+        let alone = bus_with(&profile, &[5]).ask(&reading(&profile, 5, Role::ModelNumber));
+        let both = host.ask(&reading(&profile, 5, Role::ModelNumber));
+        assert_eq!(both.len(), alone.len(), "{}", profile.name);
+        assert_ne!(both, alone, "{}", profile.name);
+        // Both obey what needs no answer.
+        let id = profile.role(Role::Id).expect("has it").address;
+        let write = if is_summed(&profile) {
+            summed_packet(254, 3, &[id as u8, 6])
+        } else {
+            packet(254, 3, &[id as u8, 0, 6])
+        };
+        assert_eq!(host.ask(&write), [], "{}", profile.name);
+        assert!(
+            host.bus.servos().iter().all(|servo| servo.id() == 6),
+            "{}",
+            profile.name
+        );
+    }
+}
+
+/// Bytes that look like the beginnings of packets.
+fn alphabet() -> impl Strategy<Value = Vec<u8>> {
+    let byte = prop_oneof![
+        Just(0x00u8),
+        Just(0x01),
+        Just(0x02),
+        Just(0x03),
+        Just(0xFD),
+        Just(0xFE),
+        Just(0xFF),
+        any::<u8>(),
+    ];
+    proptest::collection::vec(byte, 0..200)
+}
+
+proptest! {
+    /// Whatever was on the line, once it is silent long enough every servo hears its name again.
+    #[test]
+    fn any_bytes_are_survived_by_servos_of_any_language(noise in alphabet()) {
+        let profiles = Profiles::builtin();
+        let mut bus = ServoBus::new(BusOptions::default());
+        let models = ["xl430-w250", "ax-12a", "sts3215", "scs0009"];
+        for (id, model) in (11..).zip(models) {
+            bus.add(profiles.servo(model).expect("shipped"), Unit::new(id)).expect("fits");
+        }
+        let mut host = Host::new(bus);
+        host.ask(&noise);
+        host.wait(3000);
+        for (id, model) in (11..).zip(models) {
+            let profile = profiles.servo(model).expect("shipped");
+            // Noise may have been an instruction: to another number, speed or level, or to start over.
+            let known = host.bus.servo(id).is_some_and(|servo| servo.counters().instructions == 0);
+            if known {
+                prop_assert!(!host.ask(&say(profile, id, 1, &[])).is_empty(), "{model}");
+            }
+        }
+    }
+
+    #[test]
+    fn packets_arrive_as_they_were_meant(params in alphabet()) {
+        let mut two = crate::servo_bus::dynamixel2::receiver::Receiver::default();
+        let count = packet(1, 3, &params).iter().filter_map(|&byte| two.push(0, 0, byte)).count();
+        prop_assert_eq!((count, two.params()), (1, &params[..]));
+        let mut one = crate::servo_bus::summed::receiver::Receiver::default();
+        let count = summed_packet(1, 3, &params).iter().filter_map(|&byte| one.push(0, 0, byte)).count();
+        prop_assert_eq!((count, one.params()), (1, &params[..]));
     }
 }

@@ -162,6 +162,7 @@ fn goals_end_at_the_limits_and_never_cross_the_seam() {
     host.wait(2000);
     assert_eq!(host.register(1, "Present Position"), 3000);
     assert_eq!(host.register(1, "Goal Position"), 3900);
+    assert_eq!(host.register(1, "Target Position"), 3000);
     // With an offset the seam lies elsewhere; the way from 100 to 4000 is still through 2048.
     let mut host = sts(&[1]);
     host.ask(&put(31, &500u16.to_le_bytes()));
