@@ -3,6 +3,8 @@
 //! One file a measure. A row is one line of JSON; which way is better is said by [`MEASURES`], which `--list`
 //! prints. Source of the form: `docs/cli.md`, "measure".
 
+pub mod bus;
+pub mod bus_faults;
 pub mod interpolant;
 pub mod network;
 pub mod rig_step;
@@ -24,7 +26,7 @@ pub struct Measure {
 }
 
 /// All measures, in the order in which they are taken.
-pub const MEASURES: [Measure; 4] = [
+pub const MEASURES: [Measure; 6] = [
     Measure {
         name: rig_step::NAME,
         about: "One dial report of the simulated box through a whole step of the rig, with the shipped network \
@@ -44,6 +46,22 @@ pub const MEASURES: [Measure; 4] = [
                 time, in ms. limit: what the bytes really read and written need on the wire; \
                 ratio = limit / value: higher is better, 1 is the wire itself, 0.97 is wanted.",
         take: servo_cycle::take,
+    },
+    Measure {
+        name: bus::NAME,
+        about: "A full cycle (goals to all, positions of all) of 6, 12 and 20 simulated servos behind a \
+                pseudo-terminal with the wire's time, in ms: ours, rustypot, dynamixel2; then four buses at once, of \
+                which the slowest is told. limit: what the bytes need on the wire; ratio = limit / value: higher is \
+                better, 1 is the wire itself. Wanted: 0.98 at 1 Mbaud, 0.97 (fast: 0.94) at 4 Mbaud, 0.95 of each of \
+                four.",
+        take: bus::take,
+    },
+    Measure {
+        name: bus_faults::NAME,
+        about: "Values that a bus returns under every fault of the simulator, judged by it, in virtual time: stale \
+                values, values of another servo and values of nobody must be 0. Then what one servo that falls silent \
+                costs the five others: cycles lost, 1 at most; peers: the time of a cycle from then on.",
+        take: bus_faults::take,
     },
     Measure {
         name: network::NAME,

@@ -22,6 +22,8 @@ const REQUEST_BYTES: [usize; 2] = [14, 5];
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Asked {
     Status,
+    /// The status of those that did not answer in this cycle yet.
+    Again,
     Health(Item),
     /// Every length is owed: only whether the line still lives.
     Ping,
@@ -85,7 +87,8 @@ impl Bus {
             let mut slots = chosen.iter().filter_map(|chosen| slots.get(chosen.member));
             slots.all(|slot| slot.presence == Presence::Present)
         };
-        let fast = cycle.chosen.len() > 1 && all_there(&cycle.chosen) && asking.fast.choose();
+        let may_be_fast = asked != Asked::Again && cycle.chosen.len() > 1 && all_there(&cycle.chosen);
+        let fast = may_be_fast && asking.fast.choose();
         cycle.fast = fast;
         cycle.asked = Some(asked);
         counters.fast_reads += u64::from(fast);
@@ -155,7 +158,10 @@ impl Bus {
                 return;
             }
             let event = match asked {
-                Some(Asked::Status) => slot.take_status(chosen, &answer, now, settings.hot_c),
+                Some(Asked::Status | Asked::Again) => {
+                    slot.read_in = cycle.number;
+                    slot.take_status(chosen, &answer, now, settings.hot_c)
+                }
                 Some(Asked::Health(item)) => {
                     let confirmed = lost.get_mut(member);
                     slot.take_health(member, item, &answer, chosen.address, confirmed, settings.hot_c)
@@ -191,12 +197,13 @@ fn choose(company: &Company, asked: Asked, slots: &mut [Slot], cycle: u64, chose
         };
         let wanted = match slot.presence {
             Presence::Present => true,
-            Presence::Doubtful => asked == Asked::Status,
+            Presence::Doubtful => matches!(asked, Asked::Status | Asked::Again),
             Presence::Absent => asked == Asked::Status && cycle >= slot.probe_at,
         };
+        let wanted = wanted && !(asked == Asked::Again && slot.read_in == cycle);
         let block = match asked {
             Asked::Health(item) => slot.health_block(item),
-            Asked::Status | Asked::Ping => Some(slot.table.status),
+            Asked::Status | Asked::Again | Asked::Ping => Some(slot.table.status),
         };
         if let Some(block) = block.filter(|_| wanted) {
             chosen.push(Chosen {

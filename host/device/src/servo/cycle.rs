@@ -23,6 +23,9 @@ const MISSES_MAX: u32 = 10;
 /// After so many answers in a row that were taken for late, what is known of that servo's clock is doubted: the
 /// line is let fall silent, and all are measured and pinned again.
 const LATE_IN_A_ROW_MAX: u8 = 6;
+/// So often in one cycle those are asked again whom a silence before them may have kept from answering: once after a
+/// failed fast read, once more when it is known who is to blame.
+const AGAIN_MAX: u8 = 2;
 /// Health readings in one health interval on a bus of one company; more companies are read as often.
 const ITEMS: u32 = Item::ALL.len() as u32;
 
@@ -41,6 +44,9 @@ pub(super) struct Cycle {
     turn: usize,
     /// Companies that are still to be read in this cycle.
     left: usize,
+    /// A company of which somebody unexpectedly did not answer, and who is asked again if there is time.
+    again: Option<usize>,
+    again_left: u8,
     /// What is read beside positions, in turn.
     rounds: Vec<(usize, Item)>,
     round: usize,
@@ -70,6 +76,8 @@ impl Cycle {
             number: 0,
             turn: 0,
             left: 0,
+            again: None,
+            again_left: 0,
             rounds: rounds.collect(),
             round: 0,
             commanded: Instant::ZERO,
@@ -88,6 +96,7 @@ impl Cycle {
     pub(super) fn restart(&mut self, now: Instant) {
         self.asked = None;
         self.left = 0;
+        self.again = None;
         self.commanded = now;
         self.health_at = now;
         self.urgent = None;
@@ -197,6 +206,14 @@ impl Bus {
 
     /// Goes on with the companies that are still to be read, if there is time.
     pub(super) fn read_on(&mut self, now: Instant, until: Instant) -> Result<(), BusError> {
+        while let Some(company) = self.cycle.again.filter(|_| self.is_idle()) {
+            if now.after(self.time_for(company)) > until {
+                break;
+            }
+            self.cycle.again = None;
+            self.line.packet();
+            self.ask(company, Asked::Again, now)?;
+        }
         while self.is_idle() && self.cycle.left > 0 {
             if now.after(self.time_for(self.cycle.turn)) > until {
                 return Ok(());
@@ -218,6 +235,8 @@ impl Bus {
         let companies = self.companies.len();
         self.cycle.number += 1;
         self.cycle.left = companies;
+        self.cycle.again = None;
+        self.cycle.again_left = AGAIN_MAX;
         // Whoever is not there need not be asked with the goals.
         for _ in 1..companies {
             let absent = self
@@ -345,43 +364,57 @@ impl Bus {
 
     fn settle_and_tell(&mut self, emit: &mut dyn FnMut(BusEvent)) {
         let asked = self.cycle.asked.take();
-        if asked == Some(Asked::Status) {
+        if matches!(asked, Some(Asked::Status | Asked::Again)) {
             let well = self.line.missing().next().is_none();
             if self.cycle.fast {
-                // One damaged packet blames nobody: the next read is plain, and tells who is missing.
                 if let Some(company) = self.companies.get_mut(self.cycle.company) {
                     company.fast.went(well);
                 }
                 self.counters.fast_failures += u64::from(!well);
-            } else if !well {
-                self.blame(emit);
+            }
+            if !well && self.blame(emit) && self.cycle.again_left > 0 {
+                self.cycle.again_left -= 1;
+                self.cycle.again = Some(self.cycle.company);
             }
         }
         self.line.abandon();
     }
 
-    /// Finds out who is to blame for answers that did not come.
-    fn blame(&mut self, emit: &mut dyn FnMut(BusEvent)) {
+    /// Finds out who is to blame for answers that did not come. True if somebody is missing who was there before.
+    fn blame(&mut self, emit: &mut dyn FnMut(BusEvent)) -> bool {
         let mut to_blame = true;
+        let mut unexpected = false;
         for id in self.line.missing() {
             let chosen = self.cycle.chosen.iter().find(|chosen| chosen.id == id);
             let at = chosen.map(|chosen| chosen.member);
             let Some((member, slot)) = at.and_then(|at| Some((at, self.slots.get_mut(at)?))) else {
                 continue;
             };
+            unexpected |= slot.presence == Presence::Present;
+            if self.cycle.fast {
+                // One damaged part of the one packet condemns nobody: the next read is plain, and this one last in it.
+                if to_blame {
+                    slot.presence = Presence::Doubtful;
+                }
+                to_blame = false;
+                continue;
+            }
             // Only the first is certainly to blame: the others may have waited for it.
             if to_blame && slot.presence != Presence::Absent {
                 slot.misses += 1;
                 if slot.misses >= MISSES_MAX {
                     slot.presence = Presence::Absent;
-                    slot.probe_at = self.cycle.number + u64::from(self.settings.probe_cycles);
                     emit(BusEvent::Silent { member });
                 }
+            }
+            if slot.presence == Presence::Absent {
+                slot.probe_at = self.cycle.number + u64::from(self.settings.probe_cycles);
             }
             if slot.presence == Presence::Present {
                 slot.presence = Presence::Doubtful;
             }
             to_blame = false;
         }
+        unexpected
     }
 }

@@ -75,6 +75,8 @@ pub(super) struct Line {
     open: bool,
     /// Somebody waits for this exchange and looks as soon as bytes come.
     awaited: bool,
+    /// And has looked since answers may be there, in vain.
+    looked: bool,
     sent: Instant,
     /// When the last packet has left, however many were handed over at once.
     busy_until: Instant,
@@ -124,6 +126,7 @@ impl Line {
             owed: Owed::new(LATE_MAX),
             open: false,
             awaited: false,
+            looked: false,
             sent: Instant::ZERO,
             busy_until: Instant::ZERO,
             done: Instant::ZERO,
@@ -316,6 +319,7 @@ impl Line {
         let total = clock.end();
         self.open = !self.asked.is_empty();
         self.awaited = false;
+        self.looked = false;
         self.sent = now;
         self.done = now.after(alone.end());
         let slack = self.tempo.slack();
@@ -379,7 +383,7 @@ impl Line {
         } else if self.all_answered() {
             self.open = false;
             if self.awaited {
-                self.tempo.learn(self.done, now);
+                self.tempo.learn(self.done, now, self.looked);
             }
         }
         Ok(if self.open {
@@ -453,6 +457,7 @@ impl Line {
             transport: self.transport.as_mut(),
             from,
             alert_until: from.after(self.alert * 2),
+            looked: &mut self.looked,
         }
     }
 

@@ -22,6 +22,8 @@ pub(super) struct Slot {
     pub(super) supply: Supply,
     pub(super) presence: Presence,
     pub(super) misses: u32,
+    /// The cycle in which it was read last.
+    pub(super) read_in: u64,
     /// Cycle at which an absent servo is tried again.
     pub(super) probe_at: u64,
     pub(super) freshness: Freshness,
@@ -47,6 +49,7 @@ impl Slot {
             supply: Supply::default(),
             presence: Presence::Present,
             misses: 0,
+            read_in: 0,
             probe_at: 0,
             freshness: Freshness::default(),
             late_in_a_row: 0,

@@ -12,6 +12,8 @@ const LEARNED_AFTER: u32 = 16;
 const FORGET: f64 = 0.998;
 /// How quickly the usual delay follows.
 const FOLLOW: f64 = 0.05;
+/// Who woke up too late looks so much sooner next time.
+const SOONER_SECS: f64 = 5e-6;
 /// Silence is not believed sooner than this after the time an answer should be there: a busy machine's usual
 /// delay in waking a thread up.
 const SLACK_MIN: Duration = Duration::from_millis(1);
@@ -38,12 +40,17 @@ impl Tempo {
         }
     }
 
-    /// All answers were there at `now`; the wire alone would have been done with them at `done`.
-    pub(super) fn learn(&mut self, done: Instant, now: Instant) {
+    /// All answers were there at `now`; the wire alone would have been done with them at `done`. `looked`: somebody
+    /// had looked just before and they were not there yet. Otherwise they had been there for who knows how long.
+    pub(super) fn learn(&mut self, done: Instant, now: Instant, looked: bool) {
+        self.learned = self.learned.saturating_add(1);
+        if !looked {
+            self.usual_secs = (self.usual_secs * (1.0 - FOLLOW) - SOONER_SECS).max(0.0);
+            return;
+        }
         let secs = now.since(done).as_secs_f64();
         self.usual_secs += FOLLOW * (secs - self.usual_secs);
         self.worst_secs = secs.max(self.worst_secs * FORGET);
-        self.learned = self.learned.saturating_add(1);
     }
 
     /// An answer came after it had been given up, so much later than the wire's own time.
@@ -81,12 +88,19 @@ mod tests {
         let mut tempo = Tempo::new(SLACK_MAX);
         assert_eq!(tempo.slack(), SLACK_MAX, "nothing is known yet");
         for _ in 0..100 {
-            tempo.learn(done, done.after(Duration::from_micros(50)));
+            tempo.learn(done, done.after(Duration::from_micros(50)), true);
         }
         assert_eq!(tempo.slack(), SLACK_MIN);
         assert!(tempo.usual() > Duration::from_micros(40) && tempo.usual() <= Duration::from_micros(50));
-        tempo.learn(done, done.after(Duration::from_millis(4)));
+        tempo.learn(done, done.after(Duration::from_millis(4)), true);
         assert_eq!(tempo.slack(), Duration::from_millis(12));
+        let usual = tempo.usual();
+        tempo.learn(done, done.after(Duration::from_millis(90)), false);
+        assert!(tempo.usual() < usual, "whoever overslept looks sooner");
+        assert!(
+            tempo.slack() <= Duration::from_millis(12),
+            "and knows nothing of lateness"
+        );
         tempo.learn_of_late(Duration::from_secs(1));
         assert_eq!(tempo.slack(), SLACK_MAX);
     }

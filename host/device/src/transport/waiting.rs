@@ -17,6 +17,8 @@ pub struct Awaited<'a> {
     pub from: Instant,
     /// Until then the thread stays awake and looks again and again: being woken by bytes takes longer.
     pub alert_until: Instant,
+    /// Set when it was looked at from then on and had nothing yet: so what comes next has just come.
+    pub looked: &'a mut bool,
 }
 
 impl std::fmt::Debug for Awaited<'_> {
@@ -34,12 +36,13 @@ pub fn wait_any(lines: &mut [Option<Awaited<'_>>], clock: &dyn Clock, until: Ins
     let mut now = clock.now();
     while now < until {
         let due = |line: &&mut Awaited<'_>| line.from <= now;
-        if lines
-            .iter_mut()
-            .flatten()
-            .filter(due)
-            .any(|line| line.transport.ready())
-        {
+        let mut ready = false;
+        for line in lines.iter_mut().flatten().filter(due) {
+            let there = line.transport.ready();
+            *line.looked |= !there;
+            ready |= there;
+        }
+        if ready {
             return;
         }
         let froms = lines.iter().flatten().map(|line| line.from);
@@ -109,11 +112,12 @@ mod tests {
     use crate::transport::{memory, pty::Pty, serial};
     use std::time::Duration;
 
-    fn awaited(transport: &mut dyn Transport, from: Instant) -> Awaited<'_> {
+    fn awaited<'a>(transport: &'a mut dyn Transport, from: Instant, looked: &'a mut bool) -> Awaited<'a> {
         Awaited {
             transport,
             from,
             alert_until: from,
+            looked,
         }
     }
 
@@ -129,8 +133,8 @@ mod tests {
         let [first, second] = &mut near;
         wait_any(
             &mut [
-                Some(awaited(first, Instant::ZERO)),
-                Some(awaited(second, Instant::ZERO)),
+                Some(awaited(first, Instant::ZERO, &mut false)),
+                Some(awaited(second, Instant::ZERO, &mut false)),
             ],
             &clock,
             until,
@@ -149,8 +153,8 @@ mod tests {
         let later = Instant::from_nanos(3_000_000);
         wait_any(
             &mut [
-                Some(awaited(&mut first, later)),
-                Some(awaited(&mut second, Instant::ZERO)),
+                Some(awaited(&mut first, later, &mut false)),
+                Some(awaited(&mut second, Instant::ZERO, &mut false)),
             ],
             &clock,
             Instant::from_nanos(9_000_000),
@@ -169,8 +173,8 @@ mod tests {
         let until = Instant::from_nanos(1_234_567);
         wait_any(
             &mut [
-                Some(awaited(&mut first, Instant::ZERO)),
-                Some(awaited(&mut second, Instant::ZERO)),
+                Some(awaited(&mut first, Instant::ZERO, &mut false)),
+                Some(awaited(&mut second, Instant::ZERO, &mut false)),
             ],
             &clock,
             until,
