@@ -10,6 +10,8 @@ use device_profiles::{Area, ServoProtocol};
 
 /// First firmware in which a broadcast Factory Reset of everything is ignored.
 const GUARDED_RESET_FROM: u8 = 42;
+/// First firmware of an STS that knows Calibrate.
+const CALIBRATES_FROM: (i64, i64) = (3, 10);
 /// RAM that Startup Configuration bit 1 brings back from a backup.
 const KEPT_IN_RAM: &[Reg] = &[
     Reg::StatusReturnLevel,
@@ -85,6 +87,7 @@ impl Servo {
             Order::ClearTurns => self.clear_turns().into(),
             Order::Backup => self.back_up().into(),
             Order::Restore => self.restore_backup(),
+            Order::Calibrate(_) if !self.calibrates() => Refusal::Instruction.into(),
             Order::Calibrate(counts) => {
                 self.calibrate(counts.into());
                 None.into()
@@ -100,6 +103,7 @@ impl Servo {
     pub(super) fn answers(&self, order: &Order<'_>) -> bool {
         let level = self.table.get(Reg::StatusReturnLevel);
         match (order, order.class()) {
+            (Order::Calibrate(_), _) if !self.calibrates() => false,
             (Order::Malformed | Order::Refused | Order::Unknown | Order::Reboot, _) if self.is_feetech() => {
                 false
             }
@@ -107,6 +111,11 @@ impl Servo {
             (_, Class::Read) => self.is_feetech() || level >= 1,
             (_, Class::Other) => level >= if self.is_feetech() { 1 } else { 2 },
         }
+    }
+
+    /// Whether its firmware knows the instruction that names the present position.
+    fn calibrates(&self) -> bool {
+        (i64::from(self.firmware()), self.table.get(Reg::FirmwareMinor)) >= CALIBRATES_FROM
     }
 
     /// Whether it answers reads among others at its Status Return Level.

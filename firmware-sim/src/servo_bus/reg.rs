@@ -24,6 +24,7 @@ use Key::{For, Named};
 known_registers! {
     ModelNumber = For(Role::ModelNumber),
     FirmwareVersion = For(Role::FirmwareVersion),
+    FirmwareMinor = For(Role::FirmwareMinor),
     Id = For(Role::Id),
     BaudRate = For(Role::BaudRate),
     ReturnDelayTime = For(Role::ReturnDelay),

@@ -15,7 +15,7 @@ use device_profiles::{Role, ServoProfile, ServoProtocol};
 
 /// From power or reboot to answering. Ours; ROBOTIS gives no time.
 const BOOT_NS: u64 = 250_000_000;
-/// The same of a Feetech servo. Source: `docs/protocols/feetech.md`, "Reboot".
+/// The same of a Feetech servo. Source: `docs/protocols/feetech.md`, "Instructions".
 const FEETECH_BOOT_NS: u64 = 800_000_000;
 /// Unit of Bus Watchdog.
 const WATCHDOG_NS: u64 = 20_000_000;
@@ -127,6 +127,9 @@ impl Servo {
         servo.set_stops(servo.unit.stops_rad);
         servo.table.set(Reg::ModelNumber, i64::from(profile.model_number));
         servo.table.set(Reg::FirmwareVersion, i64::from(firmware));
+        servo
+            .table
+            .set(Reg::FirmwareMinor, i64::from(servo.unit.firmware_minor));
         servo.table.set(Reg::Id, i64::from(servo.unit.id));
         servo.set_baud(servo.unit.baud.unwrap_or(bus_baud));
         if let Some(delay_us) = servo.unit.return_delay_us {

@@ -34,6 +34,8 @@ pub struct Unit {
     pub baud: Option<u32>,
     /// Firmware version; none: the profile's.
     pub firmware: Option<u8>,
+    /// Its part after the point, where the model has one (Feetech). The newest that is reported: 10.
+    pub firmware_minor: u8,
     /// Where the shaft is, radians from the middle of the position range.
     pub start_rad: f64,
     /// Return Delay Time in microseconds; none: the factory's 500.
@@ -62,6 +64,7 @@ impl Unit {
             id,
             baud: None,
             firmware: None,
+            firmware_minor: 10,
             start_rad: 0.0,
             return_delay_us: None,
             turnaround_us: 0,

@@ -375,3 +375,33 @@ proptest! {
         prop_assert_eq!((count, one.params()), (1, &params[..]));
     }
 }
+
+#[test]
+fn every_model_gets_there_with_a_motor_of_its_own() {
+    for profile in models() {
+        let mut bus = ServoBus::new(BusOptions::default());
+        let unit = Unit {
+            return_delay_us: Some(0),
+            plant: PlantKind::Real,
+            ..Unit::new(1)
+        };
+        bus.add(&profile, unit).expect("fits");
+        let mut host = Host::new(bus);
+        host.ask(&writing(&profile, 1, Role::TorqueEnable, 1));
+        let goal = profile.centre_counts + (profile.counts_per_turn / 12.0) as i32;
+        host.ask(&writing(&profile, 1, Role::GoalPosition, goal as u32));
+        host.wait(3000);
+        let servo = host.bus.servo(1).expect("there");
+        let off =
+            servo.true_position_rad() - f64::from(goal - profile.centre_counts) * profile.rad_per_count();
+        // Friction holds it off a little where there is no integral gain.
+        assert!(off.abs() < 0.06, "{}: {off} rad off", profile.name);
+        assert_eq!(servo.alarm_bits(), 0, "{}", profile.name);
+        assert_eq!(host.register(1, moving(&profile)), 0, "{}", profile.name);
+    }
+}
+
+/// What its maker calls the register that tells of a move.
+fn moving(profile: &ServoProfile) -> &str {
+    &profile.role(Role::Moving).expect("has it").name
+}

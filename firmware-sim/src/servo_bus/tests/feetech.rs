@@ -127,6 +127,22 @@ fn the_middle_is_where_it_is_told() {
 }
 
 #[test]
+fn firmware_before_3_10_cannot_be_told_its_position() {
+    let profiles = Profiles::builtin();
+    let mut bus = ServoBus::new(BusOptions::default());
+    let unit = Unit {
+        firmware_minor: 9,
+        ..Unit::new(1)
+    };
+    bus.add(profiles.servo("sts3215").expect("shipped"), unit)
+        .expect("fits");
+    let mut host = Host::new(bus);
+    assert_eq!(data(&mut host, 0, 2), [3, 9]);
+    assert_eq!(host.ask(&summed_packet(1, 0x0B, &[0, 0])), []);
+    assert_eq!(host.register(1, "Present Position"), 2048);
+}
+
+#[test]
 fn one_write_of_goal_and_manner_is_one_move() {
     // Acceleration 0, goal 3048, time 0, speed 1000: one second.
     let mut host = sts(&[1]);
