@@ -180,7 +180,6 @@ impl Doctor {
             .and_then(|code| u8::try_from(code).ok())
             .and_then(|code| model.baud_of_code(code))
             .ok_or_else(nobody)?;
-        let code = model.baud_code(ward.baud).ok_or_else(nobody)?;
         let mut line = self.open(ward, fresh_baud)?;
         let clock = &*self.clock;
         let found = line.ping(fresh_id, clock).map_err(|_| nobody())?;
@@ -188,11 +187,8 @@ impl Doctor {
             return Err(nobody());
         }
         let model = model.at_firmware(found.firmware).into_owned();
-        let name = |role| name_of(&model, role, ward);
-        line.write_register(&model, fresh_id, &name(Role::Id)?, wanted.id.into(), clock)?;
-        line.write_register(&model, wanted.id, &name(Role::BaudRate)?, code.into(), clock)?;
-        drop(line);
-        self.open(ward, ward.baud)?.ping(wanted.id, &*self.clock)?;
+        line.set_id(&model, fresh_id, wanted.id, clock)?;
+        line.set_servo_baud(&model, wanted.id, ward.baud, clock)?;
         Ok(format!(
             "{joint}: a {} has now id {} and {} baud",
             model.name, wanted.id, ward.baud

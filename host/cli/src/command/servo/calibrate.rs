@@ -1,9 +1,7 @@
 //! `dialrig servo calibrate`: a hand moves every joint through its travel; zeros, signs, ranges and homing follow.
 
-use std::io::{IsTerminal, stdin};
+use std::io::IsTerminal;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use rig::SystemPorts;
@@ -11,6 +9,7 @@ use rig::calibration::{Backup, CalibrationError, Calibrator, Proposal, Reading, 
 use rig::ward::wards;
 use serde::Serialize;
 
+use super::typed::Typed;
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
@@ -111,7 +110,7 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     }
     let person = Person {
         interrupt: Interrupt::listen(),
-        enter: Enter::listen(),
+        typed: Typed::listen(),
     };
     if !sweep(args, &mut calibrator, console, &person)? {
         return Ok(Exit::Done);
@@ -157,7 +156,7 @@ fn sweep(
         let over = || clock.now().since(began).as_secs_f64() >= secs;
         return watch(calibrator, console, person, &over);
     }
-    let pressed = || person.enter.came();
+    let pressed = || person.typed.next().is_some();
     if !args.middle {
         console.remark("put every joint at its zero, then press Enter");
         if !watch(calibrator, console, person, &pressed)? {
@@ -296,30 +295,7 @@ fn record(proposal: &Proposal) -> Record<'_> {
 /// Whoever sits at the terminal.
 struct Person {
     interrupt: Interrupt,
-    enter: Enter,
-}
-
-/// The Enter key, heard on a thread of its own since reading a line waits.
-struct Enter(Arc<AtomicBool>);
-
-impl Enter {
-    fn listen() -> Self {
-        let flag = Arc::new(AtomicBool::new(false));
-        let set = Arc::clone(&flag);
-        std::thread::spawn(move || {
-            let mut line = String::new();
-            // The end of input is no key: whoever closes it must interrupt.
-            while stdin().read_line(&mut line).is_ok_and(|bytes| bytes > 0) {
-                set.store(true, Ordering::Relaxed);
-                line.clear();
-            }
-        });
-        Self(flag)
-    }
-
-    fn came(&self) -> bool {
-        self.0.swap(false, Ordering::Relaxed)
-    }
+    typed: Typed,
 }
 
 fn confirmed(console: &Console, person: &Person) -> Result<bool, Failure> {
@@ -327,7 +303,7 @@ fn confirmed(console: &Console, person: &Person) -> Result<bool, Failure> {
         .remark("write this to the servos and the profile? Enter writes, Ctrl-C leaves everything as it is");
     console.flush()?;
     while !person.interrupt.came() {
-        if person.enter.came() {
+        if person.typed.next().is_some() {
             return Ok(true);
         }
         person.interrupt.wait(EVERY);

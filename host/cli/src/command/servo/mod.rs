@@ -13,6 +13,8 @@ mod release;
 mod scan;
 mod set_baud;
 mod set_id;
+mod teach;
+mod typed;
 mod write;
 
 use clap::{Subcommand, ValueEnum};
@@ -59,6 +61,7 @@ enum Command {
     Release(release::Args),
     Doctor(doctor::Args),
     Calibrate(calibrate::Args),
+    Teach(teach::Args),
 }
 
 /// Where the line is.
@@ -230,5 +233,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Command::Release(args) => release::run(args, console),
         Command::Doctor(args) => doctor::run(args, console),
         Command::Calibrate(args) => calibrate::run(args, console),
+        Command::Teach(args) => teach::run(args, console),
     }
 }

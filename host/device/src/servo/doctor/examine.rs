@@ -1,15 +1,15 @@
 //! Looking: who answers, at which speed, how soon, and what their registers say. Nothing is written.
 
-use super::facts::{Expected, Patient, Seen, Stray, median};
+use super::facts::{Expected, Joint, Patient, Seen, Stray, lower_quartile};
 use crate::clock::Clock;
 use crate::servo::maintenance::{Found, Maintenance, MaintenanceError};
 use device_profiles::{Role, ServoProfile, ServoProtocol};
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// Pings in all, shared among the servos: one lost answer in a hundred is then seen all but surely.
+/// Questions in all, shared among the servos: one lost answer in a hundred is then seen all but surely.
 const PINGS: usize = 400;
-/// Pings of one servo, at least and at most.
+/// Questions to one servo, at least and at most.
 const PINGS_OF_ONE: std::ops::RangeInclusive<usize> = 12..=100;
 /// Lost answers after which nobody needs to ask on: each costs a silence.
 const LOST_ENOUGH: u32 = 12;
@@ -21,6 +21,9 @@ const VOLTAGE_EVERY: Duration = Duration::from_millis(120);
 const GARBLED_BYTES_MIN: u64 = 10;
 /// The same in packets that were recognised as such, and damaged.
 const GARBLED_PACKETS_MIN: u64 = 2;
+
+/// Speeds that people set servos to.
+const USUAL_BAUDS: [u32; 5] = [115_200, 1_000_000, 2_000_000, 3_000_000, 4_000_000];
 
 /// What a judgement needs, in the order in which it is read.
 const ROLES: [Role; 18] = [
@@ -114,15 +117,15 @@ impl Look<'_> {
         for found in found {
             self.admit(found);
         }
-        let wanting: Vec<u8> = if self.expected.joints.is_empty() && garbled {
-            (0..=252).collect()
-        } else {
-            self.expected.joints.iter().map(|joint| joint.id).collect()
-        };
+        let wanting: Vec<u8> = self.expected.joints.iter().map(|joint| joint.id).collect();
         for id in wanting {
             if self.seen.patient(id).is_none() {
                 self.ask_for(id)?;
             }
+        }
+        if self.expected.joints.is_empty() && garbled {
+            let found: Vec<u8> = self.seen.patients.iter().map(|patient| patient.id).collect();
+            self.seen.garbled_ids = self.line.garbled_ids(&found, self.clock)?;
         }
         self.seen.patients.sort_by_key(|patient| patient.id);
         let bauds = self.other_bauds();
@@ -173,26 +176,24 @@ impl Look<'_> {
         });
     }
 
-    /// Where else somebody may be: nowhere if nobody is wanting, at the factories' speeds if that is not known,
-    /// at every speed otherwise.
+    /// Where else somebody may be: nowhere if nobody is wanting, at every speed that those who are can have, and at
+    /// the factories' and the usual speeds where it is not known who should be there.
     fn other_bauds(&self) -> Vec<u32> {
-        let all_there =
-            self.expected.joints.iter().all(|joint| {
-                self.seen.patient(joint.id).is_some() || self.seen.garbled_ids.contains(&joint.id)
-            });
-        let models = &self.expected.models;
-        let bauds: BTreeSet<u32> =
-            if self.seen.patients.is_empty() && self.seen.garbled_ids.is_empty() || !all_there {
-                models
-                    .iter()
-                    .flat_map(|model| model.bauds.iter().copied())
-                    .collect()
-            } else if self.expected.joints.is_empty() {
-                models.iter().filter_map(factory_baud).collect()
-            } else {
-                BTreeSet::new()
-            };
-        bauds.into_iter().filter(|&baud| baud != self.seen.baud).collect()
+        let is_wanting = |joint: &&Joint| {
+            self.seen.patient(joint.id).is_none() && !self.seen.garbled_ids.contains(&joint.id)
+        };
+        let wanting = self.expected.joints.iter().filter(is_wanting);
+        let mut bauds: BTreeSet<u32> = wanting
+            .flat_map(|joint| joint.model.bauds.iter().copied())
+            .collect();
+        if self.expected.joints.is_empty() {
+            bauds.extend(self.expected.models.iter().filter_map(factory_baud));
+            if self.seen.patients.is_empty() {
+                bauds.extend(USUAL_BAUDS);
+            }
+        }
+        bauds.remove(&self.seen.baud);
+        bauds.into_iter().collect()
     }
 
     fn read_registers(&mut self) -> Result<(), MaintenanceError> {
@@ -221,7 +222,7 @@ impl Look<'_> {
         }
     }
 
-    /// Pings everybody in turn: who answers how soon, and how often not at all.
+    /// Asks everybody in turn where it is: who answers how soon, and how often not at all.
     fn time_answers(&mut self) -> Result<(), MaintenanceError> {
         let count = self.seen.patients.len().max(1);
         let rounds = (PINGS / count).clamp(*PINGS_OF_ONE.start(), *PINGS_OF_ONE.end());
@@ -230,20 +231,23 @@ impl Look<'_> {
         for _ in 0..rounds {
             for place in 0..self.seen.patients.len() {
                 let id = self.seen.patients[place].id;
-                let lost_before = self.line.heard().timeouts;
+                let before = self.line.heard();
                 let asked_at = self.clock.now();
-                match self.line.ping(id, self.clock) {
-                    Ok(_) | Err(MaintenanceError::Silent { .. } | MaintenanceError::Refused { .. }) => {}
-                    Err(error) => return Err(error),
-                }
+                let Some(model) = self.seen.patients[place].profile.clone() else {
+                    continue;
+                };
+                self.read(&model, id, Role::PresentPosition)?;
                 let took = self.clock.now().since(asked_at);
-                let lost = (self.line.heard().timeouts - lost_before) as u32;
+                let after = self.line.heard();
+                // What comes late was not lost: a host that was held up is no fault of the line.
+                let missed = after.timeouts - before.timeouts;
+                let lost = missed.saturating_sub(after.late - before.late) as u32;
                 let patient = &mut self.seen.patients[place];
                 patient.asked += 1 + lost;
                 patient.lost += lost;
                 self.seen.asked += 1 + lost;
                 self.seen.lost += lost;
-                if lost == 0 {
+                if missed == 0 {
                     held_back.push(took.as_secs_f64() - self.needed_secs(place));
                 }
             }
@@ -252,21 +256,24 @@ impl Look<'_> {
             }
         }
         self.seen.damaged = (self.line.heard().damaged - damaged_before) as u32;
-        self.seen.held_back_secs = median(held_back);
+        self.seen.held_back_secs = lower_quartile(held_back);
         Ok(())
     }
 
-    /// What a ping and its answer need: their bytes, and the servo's return delay.
+    /// What a question and its answer need: their bytes, and the servo's return delay.
     fn needed_secs(&self, place: usize) -> f64 {
         let patient = &self.seen.patients[place];
-        let protocol = patient.profile.as_ref().map(|model| model.protocol);
-        // Instruction and status of a ping: 10 and 14 bytes in protocol 2.0, 6 and 6 in the others.
-        let bytes = match protocol {
-            None | Some(ServoProtocol::Dynamixel2) => 24.0,
-            Some(_) => 12.0,
+        let Some(model) = &patient.profile else {
+            return 0.0;
         };
+        // Instruction and status without data: 14 and 11 bytes in protocol 2.0, 8 and 6 in the others.
+        let overhead = match model.protocol {
+            ServoProtocol::Dynamixel2 => 25,
+            _ => 14,
+        };
+        let bytes = overhead + model.role(Role::PresentPosition).map_or(0, |row| row.size);
         let delay_secs = patient.get_si(Role::ReturnDelay).unwrap_or(0.0);
-        bytes * 10.0 / f64::from(self.seen.baud.max(1)) + delay_secs
+        f64::from(bytes) * 10.0 / f64::from(self.seen.baud.max(1)) + delay_secs
     }
 
     fn watch_supply(&mut self) -> Result<(), MaintenanceError> {

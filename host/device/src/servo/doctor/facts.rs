@@ -27,7 +27,8 @@ pub struct Seen {
     pub lost: u32,
     /// Damaged packets among their answers.
     pub damaged: u32,
-    /// How much longer than wire and servo need an answer took, the median, seconds; none: nobody answered.
+    /// How much longer than wire and servo need three in four answers took, or longer, seconds; none: nobody answered.
+    /// An adapter keeps every answer back, a busy host some.
     pub held_back_secs: Option<f64>,
     /// The adapter's latency timer, milliseconds, where there is one.
     pub timer_ms: Option<u8>,
@@ -180,6 +181,12 @@ impl Seen {
     pub fn patient(&self, id: u8) -> Option<&Patient> {
         self.patients.iter().find(|patient| patient.id == id)
     }
+}
+
+/// The value that a quarter lies below; none of nothing.
+pub(super) fn lower_quartile(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 4).copied()
 }
 
 /// The value in the middle; none of nothing.

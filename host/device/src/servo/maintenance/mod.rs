@@ -58,6 +58,8 @@ pub struct Overheard {
     pub stray_bytes: u64,
     /// Answers that did not come in time.
     pub timeouts: u64,
+    /// Answers that came when nobody waited for them any more.
+    pub late: u64,
 }
 
 /// What is known of a model before it is met.
@@ -173,6 +175,7 @@ impl Maintenance {
             damaged: counters.rejected,
             stray_bytes: counters.skipped_bytes,
             timeouts: counters.timeouts,
+            late: counters.stray_answers,
         }
     }
 

@@ -140,8 +140,8 @@ fn speed(case: &mut Case<'_>) {
             hz(then)
         ))
         .mended_by(format!(
-            "set every servo (`{} ID baud-rate CODE`), then `baud = {baud}` in the puppet's profile",
-            case.command("write")
+            "set every servo (`{} ID {baud}`), then `baud = {baud}` in the puppet's profile",
+            case.command("set-baud")
         ));
     case.note(finding);
 }

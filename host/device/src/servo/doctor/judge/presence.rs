@@ -38,8 +38,8 @@ fn duplicates(case: &mut Case<'_>, missing: &mut Vec<&Joint>) {
     for &id in &case.seen.garbled_ids {
         let words = format!("answers to id {id} are damaged every time: two servos have this id");
         let finding = case.of_servo(Kind::DuplicateId, id, words).mended_by(format!(
-            "unplug one of the two, then give it another id: `{} {id} id NEW`",
-            case.command("write")
+            "unplug one of the two, then give it another id: `{} {id} NEW`",
+            case.command("set-id")
         ));
         case.note(finding);
         missing.retain(|joint| joint.id != id);
@@ -77,11 +77,10 @@ fn elsewhere(case: &mut Case<'_>, missing: &mut Vec<&Joint>, strays: &mut Vec<St
             "{} answers at {} baud, the bus runs at {}",
             joint.name, stray.baud, case.seen.baud
         );
-        let code = joint.model.baud_code(case.seen.baud);
-        let remedy = match code {
-            Some(code) => format!(
-                "`dialrig servo write --port {} --baud {} {} baud-rate {code}`",
-                case.seen.port, stray.baud, stray.id
+        let remedy = match joint.model.baud_code(case.seen.baud) {
+            Some(_) => format!(
+                "`dialrig servo set-baud --port {} --baud {} {} {}`",
+                case.seen.port, stray.baud, stray.id, case.seen.baud
             ),
             None => format!(
                 "a {} cannot speak at {} baud: choose a speed for the bus that all its servos have",
