@@ -76,9 +76,21 @@ impl Wire {
         }
     }
 
-    /// The host says nothing before `until_ns`, whatever its program writes.
+    /// The host says nothing before `until_ns`, whatever its program writes. What a longer hold has kept so far leaves
+    /// then; of that, an echo is not heard.
     pub(super) fn hold_host_until(&mut self, until_ns: u64) {
-        self.host_held_ns = until_ns;
+        let held_ns = std::mem::replace(&mut self.host_held_ns, until_ns);
+        if until_ns >= held_ns {
+            return;
+        }
+        self.to_host.retain(|byte| byte.start_ns < held_ns);
+        let sent = self.to_servos.iter().filter(|byte| byte.start_ns < held_ns);
+        self.host_free_ns = sent.map(|byte| byte.end_ns).max().unwrap_or(0).max(until_ns);
+        for byte in self.to_servos.iter_mut().filter(|byte| byte.start_ns >= held_ns) {
+            byte.start_ns = self.host_free_ns;
+            self.host_free_ns += self.byte_ns;
+            byte.end_ns = self.host_free_ns;
+        }
     }
 
     /// The host writes one byte at `now_ns` or as soon as its last is out; `heard_back` is an echo.
@@ -153,7 +165,7 @@ impl Wire {
         let Some(adapter) = self.adapter else {
             return Some(first_ns);
         };
-        let timer_ns = first_ns + u64::from(adapter.latency_us) * 1000;
+        let timer_ns = first_ns.saturating_add(u64::from(adapter.latency_us) * 1000);
         let full = self.to_host.get(usize::from(adapter.chunk.max(1)) - 1);
         Some(full.map_or(timer_ns, |last| last.end_ns.min(timer_ns)))
     }

@@ -1,6 +1,7 @@
 //! The motor behind a real shaft: what its maker prints, what a hand and a weight do, and that it repeats.
 
 use super::*;
+use crate::servo_bus::plant::Order;
 use crate::servo_bus::reg::Reg;
 use std::f64::consts::TAU;
 
@@ -328,5 +329,42 @@ fn every_model_gets_there_and_stands() {
         let allowed = (profile.counts_per_turn / 120.0) as i64;
         assert!(off.abs() <= allowed && speed.abs() < 0.01, "{told}");
         assert!((0.15..1.3).contains(&top), "{told}");
+    }
+}
+
+#[test]
+fn every_model_runs_and_stalls_as_printed() {
+    for profile in Profiles::builtin().servos() {
+        let Some(printed) = &profile.motor else { continue };
+        let mut bus = ServoBus::new(BusOptions {
+            baud: profile.bauds[0],
+            ..BusOptions::default()
+        });
+        let unit = Unit {
+            plant: PlantKind::Real,
+            ..Unit::new(1)
+        };
+        bus.add(profile, unit).expect("fits");
+        let run = |needed_nm: f64| {
+            let mut servo = bus.servos()[0].clone();
+            servo.plant.load.pull_nm = needed_nm;
+            for _ in 0..2000 {
+                let full = Order::Duty {
+                    counts: 0.0,
+                    share: 1.0,
+                };
+                servo.plant.drive(full, printed.rated_voltage_v);
+            }
+            servo.true_velocity_rad_per_s()
+        };
+        let share = run(0.0) / printed.no_load_speed_rad_per_s;
+        assert!(
+            (share - 1.0).abs() < 0.01,
+            "{}: {share} of its speed",
+            profile.key
+        );
+        let stall_nm = printed.stall_torque_nm;
+        assert!(run(0.95 * stall_nm) > 0.0, "{} lifts 95 % of it", profile.key);
+        assert!(run(1.05 * stall_nm) <= 0.0, "{} does not lift 105 %", profile.key);
     }
 }

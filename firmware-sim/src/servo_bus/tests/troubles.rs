@@ -215,6 +215,20 @@ fn the_hosts_own_stall_delays_what_it_wrote() {
 }
 
 #[test]
+fn a_stall_without_end_ends_when_it_is_mended() {
+    let mut host = host_of(&[1], &["host stall", "echo"]);
+    assert_eq!(host.ask(&ping(1)), []);
+    assert_eq!(host.wait(500), []);
+    host.bus.mend(host.now_us);
+    assert_eq!(host.wait(5).len(), 14, "what had been kept leaves at last");
+    assert_eq!(host.ask(&ping(1)).len(), 14);
+    inject(&mut host, "host stall 10s");
+    host.ask(&ping(1));
+    host.bus.mend(host.now_us);
+    assert_eq!(host.wait(5).len(), 14, "mended early");
+}
+
+#[test]
 fn a_slow_adapter_keeps_what_is_short() {
     let mut host = host_of(&[1], &["adapter latency 16ms"]);
     host.bus.receive(host.now_us, &ping(1));
