@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use device_profiles::Profiles;
+
 use super::bvh;
 use super::csv;
 use super::disk;
@@ -12,6 +14,7 @@ use super::frames::ExportError;
 use super::save::save;
 use super::show::{Show, is_file_name};
 use super::source::Source;
+use super::urdf;
 
 /// What a conversion did.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,6 +28,11 @@ pub struct Converted {
 /// Reads `input` and writes `output`. Inputs: a show folder or its `show.toml`, `.bvh`, `.str`. Outputs:
 /// a show folder (no extension), `.bvh`, `.csv`. Nothing is written unless all could be read.
 pub fn convert(input: &Path, output: &Path) -> Result<Converted, FileErrors> {
+    if extension(input) == "urdf" {
+        let error = FileError::whole(input, "a URDF says nothing about servos");
+        let hint = "give a mapping of its joints with --map, see docs/puppets.md";
+        return Err(error.with_hint(hint).into());
+    }
     let (show, mut warnings) = read_show(input)?;
     let unwritten = |error: ExportError| FileError::whole(input, error.to_string());
     match extension(output).as_str() {
@@ -53,6 +61,31 @@ pub fn convert(input: &Path, output: &Path) -> Result<Converted, FileErrors> {
     Ok(Converted {
         wrote: output.to_path_buf(),
         warnings,
+    })
+}
+
+/// Reads a robot's URDF with its mapping and writes a puppet profile. Nothing is written unless all could be read.
+pub fn convert_robot(
+    input: &Path,
+    map: &Path,
+    output: &Path,
+    profiles: &Profiles,
+) -> Result<Converted, FileErrors> {
+    if extension(input) != "urdf" {
+        let error = FileError::whole(input, "a mapping belongs to a .urdf file");
+        return Err(error.with_hint("leave --map out for other files").into());
+    }
+    if extension(output) != "toml" {
+        let error = FileError::whole(output, "a puppet profile is a .toml file");
+        return Err(error
+            .with_hint("its name without .toml is what --puppet asks for")
+            .into());
+    }
+    let imported = urdf::import(input, map, profiles)?;
+    disk::put(output, imported.text)?;
+    Ok(Converted {
+        wrote: output.to_path_buf(),
+        warnings: imported.warnings,
     })
 }
 

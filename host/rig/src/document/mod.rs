@@ -1,6 +1,6 @@
 //! The show: what is kept on disk, how it is read and written, and how it changes.
 //!
-//! *Knows* the file formats (`docs/formats.md`): show folders, the thesis's structure files, BVH, CSV.
+//! *Knows* the file formats (`docs/formats.md`): show folders, the thesis's structure files, BVH, CSV, URDF.
 //! *Must not know* devices, windows, or what time it is.
 //! *Start reading* at [`Show`], then [`folder`] (a folder becomes a show) and [`save`](mod@save) (and back).
 
@@ -24,6 +24,7 @@ mod show;
 mod show_file;
 pub mod source;
 pub mod structure;
+pub mod urdf;
 mod zyz;
 
 pub use clip::{ClipDoc, JointClipDoc, JointClipDocError, Keyed};

@@ -7,6 +7,7 @@ mod faults;
 mod folder;
 mod shows;
 mod texts;
+mod urdf;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
