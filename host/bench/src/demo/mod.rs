@@ -7,6 +7,7 @@
 mod aim;
 mod pose;
 mod report;
+mod solo;
 mod story;
 mod watch;
 
@@ -18,16 +19,18 @@ use device_profiles::Profiles;
 use rig::Snapshot;
 use rig::document::Show;
 
-pub use report::{DemoReport, Limits, ServoReport, ServoRow, csv};
+pub use report::{DemoReport, LagReport, Limits, ServoReport, ServoRow, csv};
 
 use crate::replay::{Journal, ReplayError, replay};
 use crate::stand::HandError;
 use crate::world::{Equipment, Late, World, WorldError, WorldOptions};
+use solo::Solo;
 use story::Story;
 
 /// What the demo begins with.
 pub struct DemoOptions {
-    /// A show with a figure and a clip, whose keys are entered anew, and a puppet.
+    /// A show with a figure and a clip, whose keys are entered anew, and a puppet; or with a clip of the puppet's own
+    /// joints, which it performs by itself.
     pub show: Show,
     /// Hardware knowledge.
     pub profiles: Arc<Profiles>,
@@ -135,12 +138,22 @@ pub fn run(
     options: DemoOptions,
     seen: &mut dyn FnMut(Scene<'_>) -> ControlFlow<()>,
 ) -> Result<Demo, DemoError> {
-    let targets = pose::targets(&options)?;
-    let show = pose::stripped(&options.show, &targets);
+    // A puppet that follows no figure performs by itself; there is nothing for hands to pose.
+    let solo = options.show.current_joint_clip().is_some();
+    let (targets, show) = if solo {
+        (Vec::new(), options.show.clone())
+    } else {
+        let targets = pose::targets(&options)?;
+        let show = pose::stripped(&options.show, &targets);
+        (targets, show)
+    };
     let mut equipment = Equipment {
         puppet: show.puppet.clone(),
         ..Equipment::default()
     };
+    if solo {
+        (equipment.knobs, equipment.tablet) = (None, None);
+    }
     if equipment.puppet.is_none() {
         return Err(DemoError::Show { missing: "a puppet" });
     }
@@ -153,10 +166,14 @@ pub fn run(
         .profiles
         .puppet(equipment.puppet.as_deref().unwrap_or_default());
     let profile = profile.map_err(|error| WorldError::Stand(error.into()))?;
-    equipment.plan.start_rad = hanging
-        .into_iter()
-        .filter(|(joint, _)| profile.joint(joint).is_some())
-        .collect();
+    equipment.plan.start_rad = if solo {
+        solo::hanging(profile)
+    } else {
+        hanging
+            .into_iter()
+            .filter(|(joint, _)| profile.joint(joint).is_some())
+            .collect()
+    };
     equipment.plan.sag_rad_per_s = Some(SAG_RAD_PER_S);
     let joints: Vec<String> = profile.joints().map(|joint| joint.name.clone()).collect();
     let journal = Journal::new();
@@ -167,7 +184,11 @@ pub fn run(
         journal: Some(Box::new(journal.clone())),
         dut: None,
     })?;
-    let told = Story::new(world, seen)?.tell(&targets)?;
+    let told = if solo {
+        Solo::new(world, seen).tell()?
+    } else {
+        Story::new(world, seen)?.tell(&targets)?
+    };
     let text = journal.text();
     let replayed = replay(&text, show, options.profiles, &equipment)?;
     let report = DemoReport {

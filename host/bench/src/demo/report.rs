@@ -35,6 +35,16 @@ pub struct ServoReport {
     pub start_jump_deg: f64,
     /// Root of the mean square of goal minus measured over all rows, degrees.
     pub rms_error_deg: f64,
+    /// Root of the mean square of measured minus what the clip has at the same moment, over the first performance,
+    /// degrees; only where there are two, see `lag`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clip_rms_error_before_deg: Option<f64>,
+    /// The same over the second performance, with lag made up for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clip_rms_error_after_deg: Option<f64>,
+    /// How long after the clip each joint is where the clip is.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub lag: BTreeMap<String, LagReport>,
     /// Fastest change of a goal against its joint's limit; at most 1.
     pub max_speed_ratio: f64,
     /// Fastest change of a goal's speed against its joint's limit; at most 1.
@@ -43,6 +53,15 @@ pub struct ServoReport {
     pub rows: usize,
     /// What the profile allows each joint.
     pub limits: BTreeMap<String, Limits>,
+}
+
+/// Lag of a joint behind its clip, milliseconds; none where it did not move enough to tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct LagReport {
+    /// In the first performance.
+    pub before_ms: Option<f64>,
+    /// In the second, with goals taken ahead by the lag.
+    pub after_ms: Option<f64>,
 }
 
 /// What the profile allows a joint.

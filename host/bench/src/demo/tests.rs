@@ -70,3 +70,27 @@ fn a_listener_may_stop_it_safely() {
         "{error}"
     );
 }
+
+#[test]
+fn an_arm_performs_by_itself_and_its_lag_is_made_up_for() {
+    let options = DemoOptions {
+        show: rig::document::from_texts(&rig::shipped::arm()).expect("the shipped arm"),
+        profiles: Arc::new(Profiles::builtin()),
+        keys_max: None,
+    };
+    let demo = run(options, &mut |_| ControlFlow::Continue(())).expect("the story is told");
+    let servo = &demo.report.servo;
+    assert!(demo.report.journal_replay_identical && demo.report.stale_reads == 0 && demo.report.reads > 1000);
+    assert!(servo.start_jump_deg < 0.1, "{}", servo.start_jump_deg);
+    assert!(servo.max_speed_ratio <= 1.0 && servo.max_accel_ratio <= 1.0);
+    let (before, after) = (servo.clip_rms_error_before_deg, servo.clip_rms_error_after_deg);
+    assert!(before > Some(0.2) && after < before, "{before:?} {after:?}");
+    assert_eq!(servo.lag.len(), 6);
+    for (joint, lag) in &servo.lag {
+        let (before, after) = (lag.before_ms.expect("it moved"), lag.after_ms.expect("it moved"));
+        assert!(
+            before > 5.0 && after.abs() < before / 2.0,
+            "{joint}: {before} {after}"
+        );
+    }
+}

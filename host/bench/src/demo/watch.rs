@@ -173,6 +173,9 @@ impl Watch {
         ServoReport {
             start_jump_deg: self.start_jump_rad.to_degrees(),
             rms_error_deg: mean_square.sqrt().to_degrees(),
+            clip_rms_error_before_deg: None,
+            clip_rms_error_after_deg: None,
+            lag: BTreeMap::new(),
             max_speed_ratio: self.speed_ratio,
             max_accel_ratio: self.accel_ratio,
             rows: self.rows.len(),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use bench::demo::{self, Chapter, Demo, DemoError, DemoOptions, Scene};
 use rig::Snapshot;
-use rig::document;
+use rig::document::{self, Show};
 use ui::render::film::{GifFilm, write_png};
 use ui::render::stage::{self, Look};
 use ui::render::{sheet, story};
@@ -21,7 +21,8 @@ use crate::setup;
 const EXAMPLES: &str = "\
 Examples:
   dialrig demo
-  dialrig demo --seconds 12 --out /tmp/demo";
+  dialrig demo --seconds 12 --out my-demo
+  dialrig demo --puppet so-101       an arm that follows no figure: twice, the second time with its lag made up for";
 
 /// The film's size and rate: small enough for a page, large enough to read the labels.
 const FILM_SIZE: [u32; 2] = [768, 480];
@@ -34,13 +35,16 @@ const SHARES: [f64; 3] = [0.4, 0.25, 0.35];
 /// The whole chain without hardware or display, as a film
 ///
 /// Simulated hands pose the printed human through the bytes of a dial box and a tablet; the clip is retimed, played
-/// on screen and performed by a simulated puppet. Writes film.gif, poses.png, servo.csv, report.json and journal.jsonl.
+/// on screen and performed by a simulated puppet. A puppet that follows no figure performs by itself. Writes film.gif, poses.png, servo.csv, report.json and journal.jsonl.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     /// Length of the film
     #[arg(long, value_name = "N", default_value_t = 24.0, value_parser = crate::number::positive)]
     seconds: f64,
+    /// Another puppet than the marionette
+    #[arg(long, value_name = "NAME")]
+    puppet: Option<String>,
     /// Where to write; made if need be
     #[arg(long, value_name = "DIR", default_value = "demo-out")]
     out: PathBuf,
@@ -54,8 +58,8 @@ struct Moment {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     fs::create_dir_all(&args.out).map_err(|error| cannot("make", &args.out, &error))?;
-    let show = document::from_texts(&rig::shipped::salute())?;
     let profiles = setup::profiles()?;
+    let show = show_for(args.puppet.as_deref(), &profiles)?;
     let interrupt = Interrupt::listen();
     let mut moments = Vec::new();
     let options = DemoOptions {
@@ -80,6 +84,33 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     write_sheet(args, &moments)?;
     write_texts(args, &told)?;
     say(&told, args, console)
+}
+
+/// The show that suits a puppet: the human's for one that follows a figure, the arm's for one with those joints, else
+/// one joint after the other.
+fn show_for(puppet: Option<&str>, profiles: &rig::Profiles) -> Result<Show, Failure> {
+    let salute = document::from_texts(&rig::shipped::salute())?;
+    let Some(name) = puppet else { return Ok(salute) };
+    let profile = profiles
+        .puppet(name)
+        .map_err(|error| Failure::refused(error.to_string()))?;
+    let arm = document::from_texts(&rig::shipped::arm())?;
+    let keys = arm
+        .current_joint_clip()
+        .map(|clip| clip.keys.clone())
+        .unwrap_or_default();
+    let mut named = keys.iter().flat_map(|key| key.angles_rad.keys());
+    let show = if profile.figure.is_some() {
+        salute
+    } else if named.all(|joint| profile.joint(joint).is_some()) {
+        arm
+    } else {
+        rig::shipped::sweep(profile)
+    };
+    Ok(Show {
+        puppet: Some(name.to_owned()),
+        ..show
+    })
 }
 
 fn keep(moments: &mut Vec<Moment>, scene: &Scene<'_>, console: &Console) {
@@ -215,10 +246,12 @@ fn say(told: &Demo, args: &Args, console: &Console) -> Result<Exit, Failure> {
     } else {
         let report = &told.report;
         let out = args.out.display();
-        console.line(format_args!(
-            "{} keys entered through device bytes",
-            report.keys_entered
-        ))?;
+        if report.keys_entered > 0 {
+            console.line(format_args!(
+                "{} keys entered through device bytes",
+                report.keys_entered
+            ))?;
+        }
         console.line(format_args!(
             "journal replays identically: {}",
             report.journal_replay_identical
@@ -231,8 +264,30 @@ fn say(told: &Demo, args: &Args, console: &Console) -> Result<Exit, Failure> {
             report.servo.max_accel_ratio,
             report.stale_reads,
         ))?;
+        if let (Some(before), Some(after)) = (
+            report.servo.clip_rms_error_before_deg,
+            report.servo.clip_rms_error_after_deg,
+        ) {
+            console.line(format_args!(
+                "RMS error against the clip {before:.2} deg, {after:.2} deg with lag made up for"
+            ))?;
+        }
+        for (joint, lag) in &report.servo.lag {
+            let ms = |lag: Option<f64>| lag.map_or("-".to_owned(), |ms| format!("{ms:.1} ms"));
+            console.line(format_args!(
+                "lag of {joint}: {}, {} made up for",
+                ms(lag.before_ms),
+                ms(lag.after_ms)
+            ))?;
+        }
+        // Without a figure there are no key pictures.
+        let poses = if report.keys_entered > 0 {
+            format!(", {out}/poses.png")
+        } else {
+            String::new()
+        };
         console.line(format_args!(
-            "look at {out}/film.gif, {out}/poses.png, {out}/servo.csv, {out}/report.json"
+            "look at {out}/film.gif{poses}, {out}/servo.csv, {out}/report.json"
         ))?;
     }
     Ok(Exit::Done)

@@ -104,7 +104,7 @@ impl Judge {
             }
         }
         if let Some(loads) = self.loads.clone().filter(|_| motions.len() == limits.len()) {
-            loads.judge(&motions, cut.from_secs, span_secs, &mut self.found);
+            loads.judge(&motions, &limits, cut.from_secs, span_secs, &mut self.found);
         }
     }
 

@@ -5,6 +5,7 @@
 //! Source: Luh, Walker and Paul, On-Line Computational Scheme for Mechanical Manipulators, 1980; the line is that
 //! of a direct-current motor (Lynch and Park, Modern Robotics, section 8.9).
 
+use super::limits::JointLimits;
 use super::polynomial::Polynomial;
 use super::{Kind, Stretch};
 use crate::chain::{Chain, JointKind, Rigid};
@@ -21,7 +22,7 @@ const HALVINGS_MAX: u32 = 7;
 const LEAST_SHARE: f64 = 0.05;
 
 /// What one joint carries: the mass that moves with it and before the next joint.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
     /// Kilograms.
     pub mass_kg: f64,
@@ -29,6 +30,17 @@ pub struct Load {
     pub centre_m: DVec3,
     /// About its centre, in axes of the joint's frame.
     pub inertia_kg_m2: DMat3,
+}
+
+impl Default for Load {
+    /// Nothing; the default of a matrix would be 1.
+    fn default() -> Self {
+        Self {
+            mass_kg: 0.0,
+            centre_m: DVec3::ZERO,
+            inertia_kg_m2: DMat3::ZERO,
+        }
+    }
 }
 
 /// What turns a joint.
@@ -147,14 +159,18 @@ impl Loads {
     }
 
     /// Finds where motors are asked too much over one cut; `motions` are angle, speed and acceleration.
+    ///
+    /// More speed and acceleration than the limits allow is judged elsewhere and never reaches a motor: torque is that
+    /// of what the limits let through.
     pub(super) fn judge(
         &self,
         motions: &[[Polynomial; 3]],
+        limits: &[JointLimits],
         from_secs: f64,
         span_secs: f64,
         found: &mut Vec<Stretch>,
     ) {
-        let at = |s: f64| self.demands(motions, s);
+        let at = |s: f64| self.demands(motions, limits, s);
         let (begin, end) = (at(0.0), at(1.0));
         let cut = Halving {
             at: &at,
@@ -164,9 +180,14 @@ impl Loads {
         cut.search((0.0, &begin), (1.0, &end), HALVINGS_MAX, found);
     }
 
-    fn demands(&self, motions: &[[Polynomial; 3]], s: f64) -> Vec<Demand> {
-        let [angles, speeds, accels] =
+    fn demands(&self, motions: &[[Polynomial; 3]], limits: &[JointLimits], s: f64) -> Vec<Demand> {
+        let [angles, mut speeds, mut accels] =
             [0, 1, 2].map(|what| -> Vec<f64> { motions.iter().map(|motion| motion[what].at(s)).collect() });
+        for (joint, limits) in limits.iter().enumerate() {
+            let (speed, accel) = (limits.speed_max_rad_per_s, limits.accel_max_rad_per_s2);
+            speeds[joint] = speeds[joint].clamp(-speed, speed);
+            accels[joint] = accels[joint].clamp(-accel, accel);
+        }
         let torques = self.torques_nm(&angles, &speeds, &accels);
         let still = self.torques_nm(&angles, &[], &[]);
         let demand = |joint: usize| match self.motors[joint].filter(|_| self.known[joint]) {
@@ -305,6 +326,17 @@ mod tests {
         for joint in 0..2 {
             assert!((got[joint] - want[joint]).abs() < 1e-12, "{got:?} {want:?}");
         }
+    }
+
+    #[test]
+    fn nothing_weighs_nothing_and_turns_freely() {
+        let rods = rods();
+        let carried = vec![Some(Load::default()); 2];
+        let empty = Loads::new(rods.chain.clone(), carried, rods.motors.clone(), DVec3::NEG_Z);
+        assert_eq!(
+            empty.torques_nm(&[0.3, 0.4], &[1.0, 2.0], &[3.0, 4.0]),
+            [0.0, 0.0]
+        );
     }
 
     #[test]

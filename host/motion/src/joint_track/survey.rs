@@ -26,8 +26,8 @@ const CELL_RAD: f64 = 0.2;
 const CELL_WIDTH_MIN: f64 = 1.0 / 1024.0;
 /// So many narrowest cells in a row may share one corner.
 const GAP_CELLS_MAX: usize = 2;
-/// A joint that moves so far within the narrowest cell jumps, radians (our choice: twenty radians a key interval).
-const JUMP_RAD: f64 = 0.02;
+/// A joint that moves so far within the narrowest cell jumps, radians (our choice: fifty radians a key interval).
+const JUMP_RAD: f64 = 0.05;
 
 /// Whoever knows the joint angles that a pose of the figure asks for.
 pub trait Leader {

@@ -237,5 +237,9 @@ mod tests {
         assert!((whole.mass_kg - 2.0).abs() < 1e-12 && whole.centre_m.abs_diff_eq(DVec3::X, 1e-12));
         assert!((whole.inertia_kg_m2.y_axis.y - 2.0 * 4.0 / 12.0).abs() < 1e-12);
         assert!(whole.inertia_kg_m2.x_axis.x.abs() < 1e-12);
+        assert_eq!(
+            together(Load::default(), half(0.5)).inertia_kg_m2,
+            half(0.5).inertia_kg_m2
+        );
     }
 }
