@@ -1,6 +1,7 @@
 //! Every example of `docs/simulator.md` reads, and is seen: a conversation with it differs from one without.
 
 use super::*;
+use proptest::prelude::*;
 
 /// Servos on the bus: enough that every example has one before and one behind it.
 const IDS: [u8; 4] = [1, 2, 3, 4];
@@ -22,8 +23,8 @@ fn examples() -> Vec<&'static str> {
     found
 }
 
-/// What a host hears in a second of everything, with the time of every byte to a tenth of a millisecond.
-fn conversation(fault: Option<&str>) -> Vec<(u64, u8)> {
+/// What a host hears in a second of everything, with the time of every byte to `poll_us`.
+fn conversation(faults: &[&str], poll_us: u64) -> Vec<(u64, u8)> {
     let profiles = Profiles::builtin();
     let mut bus = ServoBus::new(BusOptions {
         seed: 11,
@@ -40,7 +41,7 @@ fn conversation(fault: Option<&str>) -> Vec<(u64, u8)> {
     }
     bus.add(profiles.servo("sts3215").expect("shipped"), unit(5))
         .expect("fits");
-    if let Some(text) = fault {
+    for text in faults {
         let fault = Fault::parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
         assert_eq!(bus.misfit(&fault), None, "{text}");
         bus.inject(0, &fault);
@@ -49,6 +50,7 @@ fn conversation(fault: Option<&str>) -> Vec<(u64, u8)> {
         bus,
         now_us: 0,
         heard: Vec::new(),
+        poll_us,
     };
     host.say(&packet(254, 3, &[64, 0, 1]));
     for turn in 0..25u32 {
@@ -84,14 +86,15 @@ struct Recording {
     bus: ServoBus,
     now_us: u64,
     heard: Vec<(u64, u8)>,
+    poll_us: u64,
 }
 
 impl Recording {
     fn say(&mut self, bytes: &[u8]) {
         self.bus.receive(self.now_us, bytes);
         let mut out = Vec::new();
-        for _ in 0..40 {
-            self.now_us += 100;
+        for _ in 0..4000 / self.poll_us {
+            self.now_us += self.poll_us;
             self.bus.transmit(self.now_us, &mut out);
             let now_us = self.now_us;
             self.heard.extend(out.drain(..).map(|byte| (now_us, byte)));
@@ -103,13 +106,16 @@ impl Recording {
 fn every_example_of_the_page_reads_and_is_seen() {
     let examples = examples();
     assert!(examples.len() > 40, "{}", examples.len());
-    let healthy = conversation(None);
+    let healthy = conversation(&[], 100);
     assert!(
-        conversation(None) == healthy,
+        conversation(&[], 100) == healthy,
         "nothing but the fault may make a difference"
     );
     for text in examples {
-        assert!(conversation(Some(text)) != healthy, "{text} makes no difference");
+        assert!(
+            conversation(&[text], 100) != healthy,
+            "{text} makes no difference"
+        );
         let fault = Fault::parse(text).expect(text);
         assert_eq!(Fault::parse(&fault.to_string()), Ok(fault), "{text} as {fault}");
     }
@@ -122,5 +128,18 @@ fn every_word_the_parser_knows_is_on_the_page() {
             PAGE.contains(&format!("`{word}")) || PAGE.contains(&format!(" {word}")),
             "{word} is not on the page"
         );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn whatever_goes_wrong_together_how_calls_are_cut_up_changes_no_byte(picks in proptest::collection::vec(any::<prop::sample::Index>(), 2..6)) {
+        let examples = examples();
+        let faults: Vec<&str> = picks.iter().map(|pick| *pick.get(&examples)).collect();
+        let bytes = |poll_us| -> Vec<u8> {
+            conversation(&faults, poll_us).into_iter().map(|(_, byte)| byte).collect()
+        };
+        prop_assert!(bytes(4000) == bytes(500), "{faults:?}");
     }
 }

@@ -368,3 +368,28 @@ fn every_model_runs_and_stalls_as_printed() {
         assert!(run(1.05 * stall_nm) <= 0.0, "{} does not lift 105 %", profile.key);
     }
 }
+
+#[test]
+fn what_all_draw_together_resets_the_last_of_the_chain() {
+    let mut host = real(6);
+    host.ask(&packet(254, 3, &[64, 0, 1]));
+    inject(&mut host, "cable 0.5ohm");
+    inject(&mut host, "every servo stuck for 100ms");
+    host.ask(&packet(254, 3, &[&[116, 0][..], &3500i32.to_le_bytes()].concat()));
+    let last = host.bus.servo(6).expect("there");
+    assert!(
+        last.counters().reboots > 0,
+        "{:.1} V at the end",
+        last.supply_volts()
+    );
+    assert_eq!(host.ask(&packet(6, 1, &[])), [], "it starts over");
+    host.wait(500);
+    assert_eq!(
+        host.register(6, "Torque Enable"),
+        0,
+        "and has forgotten its torque"
+    );
+    let first = host.bus.servo(1).expect("there");
+    assert_eq!(first.counters().reboots, 0);
+    assert!(first.torque_is_on(), "the first of the chain has enough");
+}
