@@ -28,7 +28,7 @@ fn what_cannot_be_opened_is_refused_in_words() {
                 "servo ping --port /dev/null 300",
                 2,
                 &[],
-                &["300 is not in 0..=252"],
+                &["300 is not in 0..=253"],
             ),
             call(
                 "monitor sim:dial-box --profile nonsense",
@@ -145,7 +145,10 @@ fn servos_are_found_read_and_let_go() {
     let (exit, pinged) = run("servo ping --port PORT 7");
     assert_eq!(
         (exit, pinged.as_str()),
-        (Some(0), "servo 7: XL330-M288, firmware 53\n")
+        (
+            Some(0),
+            "servo 7: XL330-M288 (DYNAMIXEL 2.0), firmware 53, 57600 baud\n"
+        )
     );
     let (exit, read) = run("servo read --port PORT 3 ID --json");
     assert_eq!(exit, Some(0));
@@ -156,6 +159,87 @@ fn servos_are_found_read_and_let_go() {
         Some(3),
         "a servo that is silent is a device's fault"
     );
+}
+
+/// Every subcommand that changes a servo, on one line with four protocols: exit code, words on standard output, words on
+/// standard error.
+#[test]
+fn servos_of_every_make_are_set_up_from_the_command_line() {
+    let bus = Simulated::start(
+        "sim servo-bus --servo XL330-M288:1,AX-12A:2,STS3215:3,SCS0009:4 --baud 1000000 --wire none",
+    );
+    for (line, exit, out, err) in [
+        ("scan --only", 0, "AX-12A", ""),
+        ("write 3 'Return Delay Time' 0", 0, "Return Delay Time is 0", ""),
+        (
+            "write 2 temperature-limit 66 --json",
+            0,
+            r#""register":"Temperature Limit","address":11,"raw":66"#,
+            "",
+        ),
+        ("write 1 max-position 1 --si --json", 0, r#""raw":652"#, ""),
+        (
+            "write 1 goal-position 5",
+            1,
+            "",
+            "goals and torque go through the player",
+        ),
+        (
+            "write 1 'Torque Enable' 1",
+            1,
+            "",
+            "goals and torque go through the player",
+        ),
+        ("write 1 led 0.5", 1, "", "whole number"),
+        (
+            "write 1 temperature-limit 300",
+            1,
+            "",
+            "give a value from 0 to 100",
+        ),
+        ("write 9 led 1", 3, "", "servo 9 does not answer"),
+        ("set-id 4 14", 0, "servo 14: SCS0009 (Feetech SCS)", ""),
+        ("set-id 14 3", 1, "", "id 3 is in use"),
+        (
+            "set-baud 3 500000 --json",
+            0,
+            r#""protocol":"sts","baud":500000"#,
+            "",
+        ),
+        ("set-baud 1 77", 1, "", "cannot speak at 77 baud"),
+        ("reboot 1", 0, "XL330-M288", ""),
+        ("reboot 2", 1, "", "DYNAMIXEL 1.0 has no reboot"),
+        ("clear 1", 0, "", "counts from this turn"),
+        ("backup 1", 0, "", "keeps a copy"),
+        ("factory-reset 1", 1, "", "give --yes"),
+        ("factory-reset 1 --keep id --yes", 0, "57600 baud", ""),
+        ("monitor 2 --count 1 --json", 0, r#""load":"#, ""),
+        (
+            "read 14 present-position --protocol scs --json",
+            0,
+            r#""register":"Present Position","address":56"#,
+            "",
+        ),
+        ("ping 14 --protocol sts", 1, "", "servo 14 speaks Feetech SCS"),
+        ("release", 0, "", "torque is off on 2 servos"),
+    ] {
+        let (command, rest) = line.split_once(' ').unwrap_or((line, ""));
+        let mut args = vec!["servo", command, "--port", &bus.address, "--baud", "1000000"];
+        let words: Vec<&str> = rest.split('\'').collect();
+        for (at, word) in words.iter().enumerate() {
+            // Between quotes a name is one word.
+            if at % 2 == 1 {
+                args.push(word);
+            } else {
+                args.extend(word.split_whitespace());
+            }
+        }
+        let output = dialrig("").args(args).output().expect("runs");
+        let [said, complained] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+        assert_eq!(output.status.code(), Some(exit), "{line}: {said}{complained}");
+        assert!(said.contains(out), "{line}: {said}");
+        assert!(complained.contains(err), "{line}: {complained}");
+    }
 }
 
 #[test]

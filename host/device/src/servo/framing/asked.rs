@@ -87,11 +87,17 @@ impl Asked {
         }
     }
 
-    /// Whether these bytes are how the next echo begins.
+    /// Whether these bytes begin like a packet whose echo has not been heard yet.
     pub(super) fn begins_echo(&self, bytes: &[u8]) -> bool {
-        let next = self.sent.get(self.heard..).unwrap_or_default();
-        let common = bytes.len().min(next.len());
-        common > 0 && bytes.get(..common) == next.get(..common)
+        let mut rest = self.sent.get(self.heard..).unwrap_or_default();
+        while let Some((packet, behind)) = split_packet(self.protocol, rest) {
+            let common = bytes.len().min(packet.len());
+            if common > 0 && bytes.get(..common) == packet.get(..common) {
+                return true;
+            }
+            rest = behind;
+        }
+        false
     }
 
     /// Blocks in the answer to the fast read that was sent, in order.

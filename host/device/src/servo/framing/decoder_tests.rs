@@ -147,6 +147,27 @@ fn where_bytes_do_not_tell_the_lines_habit_does() {
     assert_eq!(hear(&mut echoing, &both), ["echo", "1:[]"]);
 }
 
+/// An echo is longer than any answer: it is known whatever comes behind it, or came before it.
+#[test]
+fn a_long_echo_is_known_beside_a_damaged_one() {
+    let mut first = Vec::new();
+    sync_write(Sts, &mut first, 42, (1..=8).map(|id| (id, [id; 6]))).unwrap();
+    let mut second = Vec::new();
+    sync_write(Sts, &mut second, 41, (1..=9).map(|id| (id, [id; 1]))).unwrap();
+    let sent = [first.clone(), second.clone()].concat();
+    for (hit, lost) in [(first.len() + 5, "the second"), (5, "the first")] {
+        let mut wire = sent.clone();
+        wire[hit] ^= 0x40;
+        let mut whole = Decoder::new(Sts);
+        whole.sent(&sent);
+        assert_eq!(hear_to_the_end(&mut whole, &wire), ["echo"], "{lost} is damaged");
+        let mut pieces = Decoder::new(Sts);
+        pieces.sent(&sent);
+        let heard: Vec<String> = wire.iter().flat_map(|byte| hear(&mut pieces, &[*byte])).collect();
+        assert_eq!(heard, ["echo"], "{lost} is damaged, and bytes come one by one");
+    }
+}
+
 const LIST: [(u8, u16); 4] = [(3, 4), (7, 2), (4, 1), (9, 4)];
 
 /// The data that servo `id` would put into its block.
