@@ -85,6 +85,17 @@ pub enum ServoLineError {
         /// What it calls itself.
         model_number: u16,
     },
+    /// The servo would go to a speed at which nothing can reach it.
+    #[error(
+        "{address} cannot change its speed from here, so servo {id} would be out of reach at another one; connect the \
+         adapter to this computer for that"
+    )]
+    FixedSpeed {
+        /// The line.
+        address: String,
+        /// The servo.
+        id: u8,
+    },
 }
 
 impl ServoLineError {
@@ -94,6 +105,7 @@ impl ServoLineError {
         !matches!(
             self,
             Self::UnknownModel { .. }
+                | Self::FixedSpeed { .. }
                 | Self::Servo(
                     Register(_)
                         | Goal { .. }
@@ -112,6 +124,7 @@ pub struct ServoLine {
     clock: Arc<dyn Clock>,
     profiles: Arc<Profiles>,
     protocol: Option<ServoProtocol>,
+    address: String,
 }
 
 impl ServoLine {
@@ -134,6 +147,7 @@ impl ServoLine {
             clock,
             profiles,
             protocol,
+            address: address.to_owned(),
         })
     }
 
@@ -223,6 +237,9 @@ impl ServoLine {
     pub fn write(&mut self, id: u8, register: &str, raw: i64) -> Result<RegisterValue, ServoLineError> {
         let servo = self.profile(id)?;
         let row = row(&servo, register)?;
+        if row.role == Some(Role::BaudRate) {
+            self.can_follow(id)?;
+        }
         self.line
             .write_register(&servo, id, &row.name, raw, &*self.clock)?;
         let id = match row.role {
@@ -249,6 +266,7 @@ impl ServoLine {
     /// Makes a servo speak at another line speed, and follows it there.
     pub fn set_baud(&mut self, id: u8, baud: u32) -> Result<FoundServo, ServoLineError> {
         let servo = self.profile(id)?;
+        self.can_follow(id)?;
         self.line.set_servo_baud(&servo, id, baud, &*self.clock)?;
         self.ping(id)
     }
@@ -262,6 +280,9 @@ impl ServoLine {
     /// Back to factory settings; says where the servo is then.
     pub fn factory_reset(&mut self, id: u8, keep: Keep) -> Result<FoundServo, ServoLineError> {
         let servo = self.profile(id)?;
+        if keep != Keep::IdAndBaud {
+            self.can_follow(id)?;
+        }
         let found = self.line.factory_reset(&servo, id, keep, &*self.clock)?;
         Ok(named(&self.profiles, found))
     }
@@ -274,6 +295,17 @@ impl ServoLine {
     /// Keeps a copy of a servo's settings in the servo, or brings it back.
     pub fn backup(&mut self, id: u8, way: Backup) -> Result<(), ServoLineError> {
         Ok(self.line.backup(id, way, &*self.clock)?)
+    }
+
+    /// Whether the line can go to another speed with a servo. What is behind TCP has its speed set there.
+    fn can_follow(&self, id: u8) -> Result<(), ServoLineError> {
+        if self.address.starts_with("tcp:") {
+            return Err(ServoLineError::FixedSpeed {
+                address: self.address.clone(),
+                id,
+            });
+        }
+        Ok(())
     }
 
     fn profile(&mut self, id: u8) -> Result<ServoProfile, ServoLineError> {

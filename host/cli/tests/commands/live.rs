@@ -1,7 +1,7 @@
 //! Commands that speak to devices: what they refuse, and whole conversations between two of them.
 
 use std::io::{BufRead, BufReader};
-use std::process::Child;
+use std::process::{Child, Output};
 
 use crate::{ANY, call, check, dialrig, interrupt};
 
@@ -161,6 +161,22 @@ fn servos_are_found_read_and_let_go() {
     );
 }
 
+/// `dialrig servo` on that bus; a name between single quotes is one word.
+fn servo(bus: &Simulated, line: &str) -> Output {
+    let (command, rest) = line.split_once(' ').unwrap_or((line, ""));
+    let mut args = vec!["servo", command, "--port", &bus.address, "--baud", "1000000"];
+    let words: Vec<&str> = rest.split('\'').collect();
+    for (at, word) in words.iter().enumerate() {
+        // Between quotes a name is one word.
+        if at % 2 == 1 {
+            args.push(word);
+        } else {
+            args.extend(word.split_whitespace());
+        }
+    }
+    dialrig("").args(args).output().expect("runs")
+}
+
 /// Every subcommand that changes a servo, on one line with four protocols: exit code, words on standard output, words on
 /// standard error.
 #[test]
@@ -200,19 +216,19 @@ fn servos_of_every_make_are_set_up_from_the_command_line() {
         ("write 9 led 1", 3, "", "servo 9 does not answer"),
         ("set-id 4 14", 0, "servo 14: SCS0009 (Feetech SCS)", ""),
         ("set-id 14 3", 1, "", "id 3 is in use"),
-        (
-            "set-baud 3 500000 --json",
-            0,
-            r#""protocol":"sts","baud":500000"#,
-            "",
-        ),
-        ("set-baud 1 77", 1, "", "cannot speak at 77 baud"),
+        ("set-baud 3 500000", 1, "", "cannot change its speed from here"),
         ("reboot 1", 0, "XL330-M288", ""),
         ("reboot 2", 1, "", "DYNAMIXEL 1.0 has no reboot"),
         ("clear 1", 0, "", "counts from this turn"),
         ("backup 1", 0, "", "keeps a copy"),
         ("factory-reset 1", 1, "", "give --yes"),
-        ("factory-reset 1 --keep id --yes", 0, "57600 baud", ""),
+        (
+            "factory-reset 1 --keep id --yes",
+            1,
+            "",
+            "cannot change its speed from here",
+        ),
+        ("factory-reset 1 --yes", 0, "1000000 baud", ""),
         ("monitor 2 --count 1 --json", 0, r#""load":"#, ""),
         (
             "read 14 present-position --protocol scs --json",
@@ -221,20 +237,9 @@ fn servos_of_every_make_are_set_up_from_the_command_line() {
             "",
         ),
         ("ping 14 --protocol sts", 1, "", "servo 14 speaks Feetech SCS"),
-        ("release", 0, "", "torque is off on 2 servos"),
+        ("release", 0, "", "torque is off on 4 servos"),
     ] {
-        let (command, rest) = line.split_once(' ').unwrap_or((line, ""));
-        let mut args = vec!["servo", command, "--port", &bus.address, "--baud", "1000000"];
-        let words: Vec<&str> = rest.split('\'').collect();
-        for (at, word) in words.iter().enumerate() {
-            // Between quotes a name is one word.
-            if at % 2 == 1 {
-                args.push(word);
-            } else {
-                args.extend(word.split_whitespace());
-            }
-        }
-        let output = dialrig("").args(args).output().expect("runs");
+        let output = servo(&bus, line);
         let [said, complained] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
         assert_eq!(output.status.code(), Some(exit), "{line}: {said}{complained}");
         assert!(said.contains(out), "{line}: {said}");
