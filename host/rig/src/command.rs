@@ -335,7 +335,15 @@ pub enum TeachCommand {
         /// The animation time then goes on by so much, seconds; 0 stays.
         step_secs: f64,
     },
-    /// The pose on screen is no longer the puppet's. Torque stays off.
+    /// Lets one joint stand where it is while the others yield to the hand, or lets it yield again. While any joint
+    /// is held the servos have torque: the others then follow the hand that moves them. With none held torque is off.
+    Hold {
+        /// Its name in the puppet profile.
+        joint: String,
+        /// Whether it is held.
+        on: bool,
+    },
+    /// The pose on screen is no longer the puppet's, and torque is off.
     End,
 }
 

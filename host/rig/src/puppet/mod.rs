@@ -237,6 +237,12 @@ impl Seat {
         })
     }
 
+    /// Joints go to these angles, and stay; the next angles may come at once.
+    pub(crate) fn lead(&mut self, angles_rad: &[f64]) {
+        // A full queue means that newer angles are on their way anyway.
+        let _ = self.runner.order(Order::Follow(angles_rad.into()));
+    }
+
     /// What is on screen now, for a puppet that follows it live: its own pose where it is posed itself, else the
     /// figure's.
     pub(crate) fn follow(&mut self, placed: Option<&[Placed]>, posed_rad: Option<&[f64]>) {

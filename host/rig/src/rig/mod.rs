@@ -9,6 +9,7 @@ mod look;
 mod network;
 mod rehearse;
 mod teach;
+use teach::Held;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -88,6 +89,8 @@ pub struct Rig {
     rehearsing: Option<Rehearsing>,
     /// The pose on screen is the puppet's own.
     teaching: bool,
+    /// Joints held while teaching, and where.
+    held: Held,
     coefficient: usize,
     notes: Notes,
     began: Instant,
@@ -136,6 +139,7 @@ impl Rig {
             puppet,
             rehearsing,
             teaching: false,
+            held: Held::default(),
             coefficient: 1,
             notes: Notes::default(),
             began,
