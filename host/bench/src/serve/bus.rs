@@ -11,6 +11,9 @@ use firmware_sim::{Fault, ServoBus};
 use super::eeprom::Eeprom;
 use super::{ServeError, Served};
 
+/// Line speed where a profile does not say which one servos come with.
+const FALLBACK_BAUD: u32 = 57_600;
+
 /// One model under several ids, as `MODEL:ID[-ID]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServoSpec {
@@ -98,8 +101,8 @@ pub struct Habits {
 pub struct BusPlan {
     /// The servos, in the order of the chain.
     pub servos: Vec<ServoSpec>,
-    /// Line speed of servos and host.
-    pub baud: u32,
+    /// Line speed of servos and host; none: each servo's as it comes, and the host's is that of the first.
+    pub baud: Option<u32>,
     /// Whether bytes take time.
     pub wire: WireTime,
     /// Whether the host hears its own bytes.
@@ -123,7 +126,7 @@ impl BusPlan {
     pub fn new(servos: Vec<ServoSpec>) -> Self {
         Self {
             servos,
-            baud: 1_000_000,
+            baud: Some(1_000_000),
             wire: WireTime::Real,
             echo: false,
             adapter: None,
@@ -137,8 +140,14 @@ impl BusPlan {
 
     /// The bus, ready to be served.
     pub fn build(&self, profiles: &Profiles) -> Result<Served, ServoSpecError> {
+        let mut bauds = Vec::new();
+        for spec in &self.servos {
+            let as_it_comes = Unit::factory(profiles.servo(&spec.model)?).baud;
+            bauds.push(self.baud.or(as_it_comes).unwrap_or(FALLBACK_BAUD));
+        }
+        let host_baud = bauds.first().copied().unwrap_or(FALLBACK_BAUD);
         let mut bus = ServoBus::new(BusOptions {
-            baud: self.baud,
+            baud: host_baud,
             wire: self.wire,
             echo: self.echo,
             adapter: self.adapter,
@@ -147,9 +156,10 @@ impl BusPlan {
             inner_header: self.habits.inner_header,
             seed: self.seed,
         });
-        for spec in &self.servos {
+        for (spec, baud) in self.servos.iter().zip(bauds) {
             for id in spec.first..=spec.last {
                 let unit = Unit {
+                    baud: Some(baud),
                     gaps: self.habits.gaps,
                     plant: self.shafts,
                     precedence: self.habits.precedence,
@@ -169,6 +179,6 @@ impl BusPlan {
             }
             bus.inject(0, fault);
         }
-        Ok(Served::Bus(Box::new(bus), self.baud, eeprom))
+        Ok(Served::Bus(Box::new(bus), host_baud, eeprom))
     }
 }

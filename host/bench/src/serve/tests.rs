@@ -168,6 +168,20 @@ fn two_servos_of_one_number_have_a_memory_each() {
 }
 
 #[test]
+fn without_a_speed_servos_have_the_one_they_come_with() {
+    for (model, baud) in [
+        ("XL430-W250", 57_600),
+        ("STS3215", 1_000_000),
+        ("AX-12A", 1_000_000),
+    ] {
+        let mut plan = BusPlan::new(ServoSpec::parse(&format!("{model}:1")).expect("reads"));
+        plan.baud = None;
+        let served = plan.build(&Profiles::builtin()).expect("built in");
+        assert_eq!(served.baud(), baud, "{model}");
+    }
+}
+
+#[test]
 fn orders_are_faults_hands_and_two_words() {
     let mut served = bus(None);
     assert_eq!(served.order(0, "servo 2 silent"), Ok("servo 2 silent".to_owned()));

@@ -36,9 +36,9 @@ pub(crate) struct Args {
     servos: Vec<String>,
     #[command(flatten)]
     place: PlaceArgs,
-    /// Line speed the servos are set to; from the factory it is 57600
-    #[arg(long, value_name = "N", default_value_t = 57_600)]
-    baud: u32,
+    /// Line speed the servos are set to; without it each has the one it comes with, 57600 or 1000000
+    #[arg(long, value_name = "N")]
+    baud: Option<u32>,
     /// Whether bytes take the time they take on a real wire
     #[arg(long, value_enum, default_value_t = Wire::Real)]
     wire: Wire,
