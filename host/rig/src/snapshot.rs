@@ -345,6 +345,8 @@ pub struct PuppetView {
     pub late_cycles: u64,
     /// The puppet as measured, standing upright: the ends of its lines, metres, the base at the origin.
     pub bones: Vec<[DVec3; 2]>,
+    /// Whether it stands on its base instead of hanging from a figure's root.
+    pub on_its_base: bool,
     /// Whether any servo may have torque.
     pub torque: bool,
     /// What it backs off for, and which joint has it, in words.

@@ -13,6 +13,8 @@ const ELEVATION_RAD: f64 = 0.08;
 /// What of its longest way from the base the picture holds: a standing human with an arm up, the base between
 /// the shoulders and the longest way down a leg.
 const MIDDLE: f64 = -0.2;
+/// The same of a puppet that stands on its base: from a little below it to its hand above.
+const MIDDLE_ON_BASE: f64 = 0.45;
 const HALF_HEIGHT: f64 = 0.8;
 const HALF_WIDTH: f64 = 0.57;
 /// Ends nearer than this are one point, metres.
@@ -23,7 +25,9 @@ pub fn scene(puppet: Option<&PuppetView>, aspect: f64) -> Scene {
     let bones = puppet.map(|p| p.bones.as_slice()).unwrap_or_default();
     let reach_m = reach_m(bones).max(0.1);
     let half_height = reach_m * HALF_HEIGHT.max(HALF_WIDTH / aspect.max(0.1));
-    let centre = DVec3::new(0.0, reach_m * MIDDLE, 0.0);
+    let on_its_base = puppet.is_some_and(|p| p.on_its_base);
+    let middle = if on_its_base { MIDDLE_ON_BASE } else { MIDDLE };
+    let centre = DVec3::new(0.0, reach_m * middle, 0.0);
     let mut scene = Scene::new(Camera::turned(AZIMUTH_RAD, ELEVATION_RAD, centre, half_height));
     let colour = if puppet.is_some_and(|p| p.torque) {
         theme::LIVE

@@ -33,6 +33,7 @@ pub(super) fn of(profile: &PuppetProfile, report: &Report, now: Instant) -> Pupp
         interventions: report.interventions.total(),
         late_cycles: report.late_ticks,
         bones: Vec::new(),
+        on_its_base: profile.figure.is_none(),
         torque: report.torque,
         torque_unknown: report.torque_unknown,
         compensates_lag: report.compensates_lag,
@@ -56,6 +57,7 @@ pub(super) fn absent(profile: &PuppetProfile, why: String) -> PuppetView {
         name: profile.name.clone(),
         fault: Some(why),
         joints,
+        on_its_base: profile.figure.is_none(),
         ..PuppetView::default()
     }
 }
