@@ -25,6 +25,8 @@ pub(super) const TURNAROUND: Duration = Duration::from_micros(100);
 const GUARD: Duration = Duration::from_millis(2);
 /// How late a servo itself may answer; see [`Owed`].
 const LATE_MAX: Duration = Duration::from_millis(100);
+/// So long before the last answer is due bytes may wake a thread; those before it are not worth it.
+const AHEAD: Duration = Duration::from_micros(200);
 /// Servos that one line can have, for the room kept for them.
 const SERVOS_MAX: usize = 254;
 
@@ -451,7 +453,9 @@ impl Line {
         let mut from = Instant::ZERO;
         if self.open {
             let due = self.done.after(self.tempo.usual()).as_nanos();
-            from = Instant::from_nanos(due.saturating_sub(self.alert.as_nanos() as u64));
+            // Whoever does not stay awake lies down to be woken in good time, so that waking up late costs nothing.
+            let before = if self.alert.is_zero() { AHEAD } else { self.alert };
+            from = Instant::from_nanos(due.saturating_sub(before.as_nanos() as u64));
         }
         Awaited {
             transport: self.transport.as_mut(),

@@ -16,7 +16,7 @@ const FOLLOW: f64 = 0.05;
 const SOONER_SECS: f64 = 5e-6;
 /// Silence is not believed sooner than this after the time an answer should be there: a busy machine's usual
 /// delay in waking a thread up.
-const SLACK_MIN: Duration = Duration::from_millis(1);
+const SLACK_MIN: Duration = Duration::from_millis(2);
 /// How many times the worst delay seen lately is waited for.
 const SLACK_TIMES: f64 = 3.0;
 

@@ -1,7 +1,8 @@
-//! Simulated buses behind pseudo-terminals whose bytes come when the wire has carried them, to the microsecond.
+//! Simulated buses behind pseudo-terminals whose answers come when the wire has carried them, to the microsecond.
 //!
-//! One thread serves them all. While anything is on a wire it does not sleep, for a sleeper is woken tens of
-//! microseconds late, which at 4 Mbaud is a tenth of a cycle.
+//! One thread serves them all. An answer is handed over in one piece when its last byte is out, as a good adapter does.
+//! The thread sleeps until shortly before and then stays awake, for a sleeper is woken tens of microseconds late,
+//! which at 4 Mbaud is a tenth of a cycle.
 
 use super::{Setup, Way};
 use device::transport::pty::Pty;
@@ -10,13 +11,14 @@ use device::{Clock, Instant, MonotonicClock};
 use device_profiles::{Profiles, ServoProfile};
 use firmware_sim::servo_bus::{BusOptions, Unit};
 use firmware_sim::{Fault, Firmware, ServoBus};
+use std::num::NonZeroU64;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// So long after the last byte a wire counts as busy: longer than any answer takes to begin.
-const BUSY: Duration = Duration::from_millis(6);
+/// So long before something is due the thread is awake.
+const AWAKE: Duration = Duration::from_micros(80);
 /// Longest sleep on quiet wires: how late the end is noticed. What the host sends wakes the thread at once.
 pub(super) const QUIET: Duration = Duration::from_millis(20);
 
@@ -30,7 +32,10 @@ pub(crate) struct Far {
 struct End {
     pty: Pty,
     bus: ServoBus,
-    spoken: Instant,
+    /// Time of a byte.
+    byte: Duration,
+    /// When there is something to do; none: when the host says something.
+    due: Option<Instant>,
 }
 
 impl Far {
@@ -51,7 +56,8 @@ impl Far {
             ends.push(End {
                 pty,
                 bus,
-                spoken: Instant::ZERO,
+                byte: Duration::from_secs(10) / setup.baud,
+                due: None,
             });
         }
         let paths = ends
@@ -84,16 +90,20 @@ impl Drop for Far {
 }
 
 fn serve(ends: &mut [End], ended: &AtomicBool) {
+    // Only exactness is lost where the kernel refuses.
+    let _ = rustix::thread::set_current_timer_slack(NonZeroU64::new(super::TIMER_SLACK_NANOS));
     let clock = MonotonicClock::new();
     let mut said = Vec::with_capacity(4096);
     while !ended.load(Ordering::Relaxed) {
-        let mut busy = false;
         for end in ends.iter_mut() {
             // An error is nobody holding the other side: look again later.
             let _ = end.carry(&clock, &mut said);
-            busy |= clock.now().since(end.spoken) < BUSY;
         }
-        if !busy {
+        let now = clock.now();
+        let due = ends.iter().filter_map(|end| end.due).min();
+        let until = due.unwrap_or(now.after(QUIET));
+        if until.since(now) > AWAKE {
+            let until = Instant::from_nanos(until.as_nanos() - AWAKE.as_nanos() as u64);
             let mut looked = [false; LINES_MAX];
             let mut lines: [Option<Awaited<'_>>; LINES_MAX] = [const { None }; LINES_MAX];
             for ((place, end), looked) in lines.iter_mut().zip(ends.iter_mut()).zip(&mut looked) {
@@ -104,7 +114,7 @@ fn serve(ends: &mut [End], ended: &AtomicBool) {
                     looked,
                 });
             }
-            wait_any(&mut lines, &clock, clock.now().after(QUIET));
+            wait_any(&mut lines, &clock, until);
         }
     }
 }
@@ -115,15 +125,26 @@ impl End {
         let mut heard = [0_u8; 4096];
         let count = self.pty.read(&mut heard)?;
         let now = clock.now();
+        let now_us = now.as_micros();
+        self.bus.receive(now_us, heard.get(..count).unwrap_or_default());
         if count > 0 {
-            self.bus
-                .receive(now.as_micros(), heard.get(..count).unwrap_or_default());
+            // Nobody answers before the question is out.
+            self.due = Some(now.after(self.byte * count as u32));
+            return Ok(());
+        }
+        if self.due.is_none_or(|due| now < due) {
+            return Ok(());
+        }
+        // Answers come one behind the other, so the last one known ends last.
+        let ends_us = self.bus.statuses().last().map(|status| status.last_us);
+        let ends = ends_us.map(|us| Instant::from_nanos((us + 1) * 1000));
+        if let Some(ends) = ends.filter(|ends| *ends > now) {
+            self.due = Some(ends);
+            return Ok(());
         }
         said.clear();
-        self.bus.transmit(now.as_micros(), said);
-        if count > 0 || !said.is_empty() {
-            self.spoken = now;
-        }
+        self.bus.transmit(now_us, said);
+        self.due = None;
         if said.is_empty() {
             return Ok(());
         }

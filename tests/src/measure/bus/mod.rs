@@ -3,7 +3,7 @@
 //!
 //! Everybody does the same: goal positions to all, present positions of all, each value looked at. Each has a
 //! simulated bus of its own behind a pseudo-terminal, as any program would see an adapter without latency; a thread
-//! that does not sleep while answers are due hands bytes over when the wire has carried them ([`far`]).
+//! that is awake when answers are due hands them over when the wire has carried them ([`far`]).
 //! Ours is the player's bus as it is, limits, watchdog, health and all, told to read positions alone.
 //! Source of the limit: the servo reference, 7.1.
 
@@ -23,9 +23,9 @@ pub const NAME: &str = "bus";
 const CYCLES: usize = 30;
 const ROUNDS: usize = 9;
 /// Cycles of a repetition that may fail before the measure is given up.
-const FAILURES_MAX: usize = 20;
+const FAILURES_MAX: usize = 300;
 /// Sleeping is part of the simulated wire here, so it must not be late by the kernel's default of 50 us.
-const TIMER_SLACK_NANOS: u64 = 1_000;
+pub(super) const TIMER_SLACK_NANOS: u64 = 1_000;
 
 /// How positions are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,9 +8,6 @@ use device::servo::{Armed, Bus, BusSettings, Commanded, Goal, Limits, Member, Re
 use device::transport::serial;
 use std::time::Duration;
 
-/// How long before answers are due the thread is awake: what a sleeper is late by on an ordinary kernel.
-const ALERT: Duration = Duration::from_micros(100);
-
 struct OnBus {
     bus: Bus,
     clock: MonotonicClock,
@@ -39,7 +36,6 @@ pub(super) fn bus(setup: Setup, path: &str) -> anyhow::Result<Bus> {
         watchdog: Duration::from_millis(2540),
         readings: Readings::Position,
         fast_reads: setup.way == Way::Fast,
-        alert: ALERT,
         ..BusSettings::new("measured", setup.baud)
     };
     let profile = setup.profile()?;
