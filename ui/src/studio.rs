@@ -85,7 +85,7 @@ impl Studio {
             (|areas| areas.desk, Box::new(desk::Desk::default())),
             (|areas| areas.header, Box::new(header::Header)),
             (|areas| areas.keys, Box::new(keys::Keys::default())),
-            (|areas| areas.puppet, Box::new(puppet::Puppet)),
+            (|areas| areas.puppet, Box::new(puppet::Puppet::default())),
             (|areas| areas.devices, Box::new(devices::Devices)),
         ];
         Studio {
@@ -145,7 +145,7 @@ impl Studio {
         }
         separators(ui, &areas, patching);
         if self.choices.help {
-            help::show(ui, areas.front.union(areas.side));
+            help::show(ui, areas.front.union(areas.side), patching);
         }
         std::mem::take(&mut self.queue)
     }

@@ -347,6 +347,8 @@ pub struct PuppetView {
     pub bones: Vec<[DVec3; 2]>,
     /// Whether it stands on its base instead of hanging from a figure's root.
     pub on_its_base: bool,
+    /// The same where its goals are; empty before every joint has one.
+    pub goal_bones: Vec<[DVec3; 2]>,
     /// Whether any servo may have torque.
     pub torque: bool,
     /// What it backs off for, and which joint has it, in words.
@@ -382,6 +384,8 @@ pub enum PuppetState {
 pub struct JointView {
     /// The joint's name in the puppet profile.
     pub name: String,
+    /// The line of [`PuppetView::bones`] that it moves.
+    pub bone: usize,
     /// What was last asked of it, radians; `None` before the first goal.
     pub goal_rad: Option<f64>,
     /// Where it last said it was, radians; `None` before the first answer.

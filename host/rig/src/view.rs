@@ -12,6 +12,8 @@ use crate::snapshot::ViewState;
 /// Share of the picture's half-height that a whole figure takes up in the front view. A tablet's shorter side
 /// reaches about 0.7, and limbs must have room to stretch.
 const FIGURE_SHARE: f64 = 0.55;
+/// Azimuth and elevation from which a puppet without a figure is looked at first.
+const BESIDE_RAD: [f64; 2] = [0.9, 0.25];
 /// Smallest and largest scale, picture half-heights per metre: from a mountain to a grain of sand.
 const SCALE: std::ops::RangeInclusive<f64> = 1e-4..=1e4;
 
@@ -39,21 +41,37 @@ impl ViewState {
 
     /// The front view that holds a placed figure.
     pub fn holding(placed: &[Placed]) -> Self {
-        let points = || {
-            placed
-                .iter()
-                .flat_map(|p| [p.start, p.end])
-                .filter(|p| p.is_finite())
+        let ends: Vec<DVec3> = placed.iter().flat_map(|p| [p.start, p.end]).collect();
+        Self::default().around(&ends)
+    }
+
+    /// A view of a puppet without a figure that holds its lines: from aside and above, since arms reach forward.
+    pub fn beside(lines: &[[DVec3; 2]]) -> Self {
+        let [azimuth_rad, elevation_rad] = BESIDE_RAD;
+        let aside = Self {
+            azimuth_rad,
+            elevation_rad,
+            ..Self::default()
         };
+        aside.around(lines.as_flattened())
+    }
+
+    /// The same turn of the view, moved and scaled to hold all points, metres.
+    fn around(self, points: &[DVec3]) -> Self {
+        let view_from_world = self.view_from_world();
+        let seen = points
+            .iter()
+            .filter(|p| p.is_finite())
+            .map(|p| view_from_world * *p);
+        let points = || seen.clone();
         let (Some(low), Some(high)) = (points().reduce(DVec3::min), points().reduce(DVec3::max)) else {
-            return Self::default();
+            return self;
         };
         let half = ((high - low).truncate().max_element() / 2.0).max(1e-3);
         Self {
-            azimuth_rad: 0.0,
-            elevation_rad: 0.0,
             scale: FIGURE_SHARE / half,
-            centre: (low + high) / 2.0,
+            centre: view_from_world.transpose() * ((low + high) / 2.0),
+            ..self
         }
     }
 

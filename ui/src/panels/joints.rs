@@ -1,12 +1,17 @@
 //! Goal against measured, joint by joint: a bar over the joint's range, a tick where it should be, a dot
 //! where it is, and the line between them is the error. A limb's joints share a row with those of the limb
-//! across, as the puppet is seen from the front: its right on the left.
+//! across, as the puppet is seen from the front: its right on the left. Dragging a bar poses the joint on screen.
+//!
+//! A joint that is in trouble, or is asked too much at the present moment, says what of instead of its angle.
 
-use egui::{Align2, Rect, Stroke, Ui, pos2, vec2};
-use rig::{JointView, PuppetView};
+use egui::accesskit::Role;
+use egui::{Align2, Rect, Sense, Stroke, Ui, pos2, vec2};
+use rig::{Command, JointView, PuppetPose, PuppetPoseView, PuppetView, Snapshot};
 
 use super::style::{self, ink};
-use crate::render::theme;
+use super::{Commands, button, joint_words, keys, strain};
+use crate::render::puppet::joint_colour;
+use crate::render::theme::{self, Rgb};
 
 /// Heights of a row, points: what still reads, and what is wide apart.
 const ROW: [f32; 2] = [12.0, 22.0];
@@ -68,8 +73,35 @@ fn head_height(rows: &[Row<'_>]) -> f32 {
     if paired { HEAD } else { 0.0 }
 }
 
+/// What a row is shown with, whatever its joint.
+struct Look<'a> {
+    seen: &'a Snapshot,
+    torque: bool,
+    pose: Option<&'a PuppetPoseView>,
+}
+
+impl Look<'_> {
+    /// The joint's angle on screen, radians, and whether a hand can change it.
+    fn posed(&self, joint: &JointView) -> Option<(f64, bool)> {
+        let pose = self.pose?;
+        let index = pose.names.iter().position(|name| *name == joint.name)?;
+        let led = pose.led.get(index).copied().unwrap_or_default();
+        Some((*pose.angles_rad.get(index)?, !led))
+    }
+
+    /// Whether servos are there at all.
+    fn driven(&self) -> bool {
+        self.seen.puppet.is_some()
+    }
+}
+
 /// Shows all joints in `area`; those that do not fit are reached by scrolling.
-pub fn show(ui: &mut Ui, area: Rect, puppet: &PuppetView) {
+pub fn show(ui: &mut Ui, area: Rect, puppet: &PuppetView, seen: &Snapshot, commands: &mut Commands<'_>) {
+    let look = Look {
+        seen,
+        torque: puppet.torque,
+        pose: seen.puppet_pose.as_ref(),
+    };
     let rows = rows(&puppet.joints);
     if rows.is_empty() {
         return;
@@ -92,7 +124,7 @@ pub fn show(ui: &mut Ui, area: Rect, puppet: &PuppetView) {
             .show(ui, |ui| {
                 for row in &rows {
                     let (_, rect) = ui.allocate_space(vec2(ui.available_width(), height));
-                    show_row(ui, rect, &columns, row, puppet.torque);
+                    show_row(ui, rect, &columns, row, (&look, &mut *commands));
                 }
             });
     });
@@ -116,7 +148,13 @@ impl Columns {
     }
 }
 
-fn show_row(ui: &Ui, rect: Rect, columns: &Columns, row: &Row<'_>, torque: bool) {
+fn show_row(
+    ui: &Ui,
+    rect: Rect,
+    columns: &Columns,
+    row: &Row<'_>,
+    (look, commands): (&Look<'_>, &mut Commands<'_>),
+) {
     let cell = |[left, right]: [f32; 2]| Rect::from_x_y_ranges(left..=right, rect.y_range());
     let (name, cells): (&str, Vec<(Rect, &JointView)>) = match row {
         Row::One(joint) => {
@@ -128,12 +166,16 @@ fn show_row(ui: &Ui, rect: Rect, columns: &Columns, row: &Row<'_>, torque: bool)
             (name, halves.zip(joints.iter().copied()).collect())
         }
     };
-    let colour = if cells.iter().any(|(_, joint)| joint.error.is_some()) {
-        theme::FAULTED
-    } else if cells.iter().all(|(_, joint)| joint.present) {
-        theme::DIM
-    } else {
-        theme::FAINT
+    let colours = || {
+        cells
+            .iter()
+            .filter_map(|(_, joint)| loud_colour(joint, look.seen))
+    };
+    let worst = colours().find(|colour| *colour == theme::FAULTED);
+    let colour = match worst.or_else(|| colours().next()) {
+        Some(colour) => colour,
+        None if cells.iter().all(|(_, joint)| joint.present || !look.driven()) => theme::DIM,
+        None => theme::FAINT,
     };
     let text = name.replace('_', " ");
     let text = (text.as_str(), style::words(theme::SIZE_SMALL));
@@ -141,29 +183,65 @@ fn show_row(ui: &Ui, rect: Rect, columns: &Columns, row: &Row<'_>, torque: bool)
     let width = columns.names - rect.left() - theme::STEP;
     style::line(ui.painter(), at, Align2::LEFT_CENTER, text, colour, width);
     for (cell, joint) in cells {
-        show_joint(ui, cell, joint, torque);
+        show_joint(ui, cell, joint, (look, &mut *commands));
     }
 }
 
-fn show_joint(ui: &Ui, rect: Rect, joint: &JointView, torque: bool) {
+/// The colour of a joint that must be noticed.
+fn loud_colour(joint: &JointView, seen: &Snapshot) -> Option<Rgb> {
+    let strained = || strain::of_joint(seen, &joint.name).map(|_| theme::TOO_MUCH);
+    joint_colour(joint).or_else(strained)
+}
+
+fn show_joint(ui: &Ui, rect: Rect, joint: &JointView, (look, commands): (&Look<'_>, &mut Commands<'_>)) {
     let middle = rect.center().y.round();
     let bar = Rect::from_min_max(rect.min, pos2(rect.right() - NUMBER, rect.bottom()));
-    show_bar(ui, bar, joint, torque);
-    let (number, colour) = match joint.measured_rad {
-        Some(rad) if joint.present && !is_old(joint) => (degrees_text(rad), theme::TEXT),
-        Some(rad) if joint.present => (degrees_text(rad), theme::FAINT),
-        _ => ("absent".to_owned(), theme::FAINT),
+    let posed = look.posed(joint);
+    let id = ui.scope_id().with(("joint", &joint.name));
+    let (sense, role) = match posed {
+        Some((_, true)) => (Sense::drag(), Role::Slider),
+        _ => (Sense::hover(), Role::Label),
     };
-    let at = pos2(rect.right(), middle);
+    let name = format!("joint {}", joint.name);
+    let response = button::spot(ui, rect, id, sense, (role, &name));
+    if let Some((posed_rad, true)) = posed {
+        let scale = Scale::of(bar, joint);
+        if response.drag_started() {
+            ui.data_mut(|data| data.insert_temp(id, posed_rad));
+        }
+        let began: Option<f64> = ui.data(|data| data.get_temp(id));
+        if let (true, Some(by), Some(began_rad)) = (response.dragged(), response.total_drag_delta(), began) {
+            commands.push(Command::PuppetPose(PuppetPose::Joint {
+                joint: joint.name.clone(),
+                angle_rad: (began_rad + scale.rad(by.x)).clamp(joint.range_rad[0], joint.range_rad[1]),
+            }));
+        }
+    }
+    show_bar(ui, bar, joint, look);
+    let (number, colour) = number(joint, look);
     let font = style::digits(theme::SIZE_SMALL);
+    let at = pos2(rect.right(), middle);
     ui.painter()
         .text(at, Align2::RIGHT_CENTER, number, font, ink(colour));
-    let id = ui.scope_id().with(("joint", &joint.name));
-    let response = ui.interact(rect, id, egui::Sense::hover());
     response.on_hover_ui(|ui| {
-        ui.set_max_width(300.0);
-        ui.label(told(joint));
+        ui.set_max_width(320.0);
+        ui.label(joint_words::told(joint, look.seen));
     });
+}
+
+/// What is at the right of a joint's bar: what it has too much of, else where it is.
+fn number(joint: &JointView, look: &Look<'_>) -> (String, Rgb) {
+    let loud = loud_colour(joint, look.seen);
+    if let (Some(colour), Some(text)) = (loud, joint_words::much(joint, look.seen)) {
+        return (text, colour);
+    }
+    let still = loud.unwrap_or(theme::TEXT);
+    match (joint.measured_rad, look.posed(joint)) {
+        (Some(rad), _) if joint.present && !is_old(joint) => (degrees_text(rad), still),
+        (Some(rad), _) if joint.present => (degrees_text(rad), theme::FAINT),
+        (_, Some((posed_rad, _))) if !look.driven() => (degrees_text(posed_rad), theme::DIM),
+        _ => ("absent".to_owned(), theme::FAINT),
+    }
 }
 
 /// Whole degrees, and never a negative nothing; the tooltip has the rest.
@@ -172,76 +250,71 @@ fn degrees_text(rad: f64) -> String {
     format!("{:.0}°", if whole == 0.0 { 0.0 } else { whole })
 }
 
-fn show_bar(ui: &Ui, bar: Rect, joint: &JointView, torque: bool) {
+/// Angles along a bar.
+struct Scale {
+    left: f32,
+    width: f32,
+    low_rad: f64,
+    span_rad: f64,
+}
+
+impl Scale {
+    fn of(bar: Rect, joint: &JointView) -> Scale {
+        let [low_rad, high_rad] = joint.range_rad;
+        Scale {
+            left: bar.left() + 3.0,
+            width: (bar.width() - 6.0).max(1.0),
+            low_rad,
+            span_rad: (high_rad - low_rad).max(1e-6),
+        }
+    }
+
+    fn x(&self, rad: f64) -> f32 {
+        let share = ((rad - self.low_rad) / self.span_rad).clamp(0.0, 1.0) as f32;
+        self.left + self.width * share
+    }
+
+    /// A way along the bar as an angle.
+    fn rad(&self, points: f32) -> f64 {
+        f64::from(points / self.width) * self.span_rad
+    }
+}
+
+fn show_bar(ui: &Ui, bar: Rect, joint: &JointView, look: &Look<'_>) {
     let painter = ui.painter();
     let middle = bar.center().y.round();
+    let scale = Scale::of(bar, joint);
     let [low, high] = joint.range_rad;
-    let span = (high - low).max(1e-6);
-    let x = |rad: f64| {
-        let share = ((rad - low) / span).clamp(0.0, 1.0) as f32;
-        bar.left() + 3.0 + (bar.width() - 6.0) * share
-    };
     let track = Rect::from_center_size(pos2(bar.center().x, middle), vec2(bar.width(), 2.0));
     painter.rect_filled(track, 1.0, ink(theme::EDGE));
     if low < 0.0 && high > 0.0 {
         let zero = middle - 3.0..=middle + 3.0;
-        painter.vline(x(0.0).round(), zero, style::hair(theme::FAINT));
+        painter.vline(scale.x(0.0).round(), zero, style::hair(theme::FAINT));
     }
     let measured = joint.measured_rad.filter(|_| joint.present);
-    let state = if joint.error.is_some() {
-        theme::FAULTED
-    } else if torque {
-        theme::LIVE
-    } else {
-        theme::DIM
-    };
+    let plain = if look.torque { theme::LIVE } else { theme::DIM };
+    let state = loud_colour(joint, look.seen).unwrap_or(plain);
     if let (Some(goal), Some(measured)) = (joint.goal_rad, measured) {
-        let error = [pos2(x(goal), middle), pos2(x(measured), middle)];
+        let error = [pos2(scale.x(goal), middle), pos2(scale.x(measured), middle)];
         painter.line_segment(error, Stroke::new(2.0, ink(state.mix(theme::PANEL, 0.35))));
     }
     if let Some(goal) = joint.goal_rad {
         let tick = middle - 5.0..=middle + 5.0;
-        painter.vline(x(goal).round(), tick, Stroke::new(1.5, ink(theme::TEXT)));
+        painter.vline(scale.x(goal).round(), tick, Stroke::new(1.5, ink(theme::TEXT)));
     }
     if let Some(measured) = measured {
-        let at = pos2(x(measured), middle);
+        let at = pos2(scale.x(measured), middle);
         if is_old(joint) {
             painter.circle(at, 2.5, ink(theme::PANEL), Stroke::new(1.2, ink(theme::DIM)));
         } else {
             painter.circle_filled(at, 3.0, ink(state));
         }
     }
-}
-
-/// Everything known about a joint, for its tooltip.
-fn told(joint: &JointView) -> String {
-    let degrees = |rad: Option<f64>| rad.map_or("none yet".to_owned(), |r| format!("{:.2}°", r.to_degrees()));
-    let [low, high] = joint.range_rad.map(f64::to_degrees);
-    let mut lines = vec![
-        format!(
-            "{}: goal {}, measured {}",
-            joint.name,
-            degrees(joint.goal_rad),
-            degrees(joint.measured_rad)
-        ),
-        format!(
-            "range {low:.0}° to {high:.0}°, measured {:.0} ms ago",
-            joint.age_secs * 1e3
-        ),
-    ];
-    if let Some(celsius) = joint.temperature_c {
-        lines.push(format!("{celsius:.0} °C"));
+    let by_hand = look.pose.is_some_and(|pose| pose.by_hand);
+    if let Some((posed_rad, _)) = look.posed(joint).filter(|_| by_hand || !look.driven()) {
+        let colour = if by_hand { theme::SELECTED } else { theme::TEXT };
+        keys::paint_diamond(painter, pos2(scale.x(posed_rad), middle), 4.0, colour);
     }
-    if let Some(volts) = joint.voltage_v {
-        lines.push(format!("{volts:.1} V"));
-    }
-    if let Some(error) = &joint.error {
-        lines.push(error.clone());
-    }
-    if !joint.present {
-        lines.push("It does not answer: check its cable and its id.".to_owned());
-    }
-    lines.join("\n")
 }
 
 #[cfg(test)]
@@ -271,6 +344,17 @@ mod tests {
             told,
             ["neck", "knee: right_knee left_knee", "right_hook", "a: r_a l_a"]
         );
+    }
+
+    #[test]
+    fn a_bar_is_as_long_as_its_range() {
+        let joint = JointView {
+            range_rad: [-1.0, 3.0],
+            ..joint("a")
+        };
+        let scale = Scale::of(Rect::from_min_size(pos2(10.0, 0.0), vec2(86.0, 10.0)), &joint);
+        assert_eq!([scale.x(-1.0), scale.x(3.0), scale.x(9.0)], [13.0, 93.0, 93.0]);
+        assert!((scale.rad(20.0) - 1.0).abs() < 1e-6);
     }
 
     #[test]

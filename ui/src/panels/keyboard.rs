@@ -2,14 +2,14 @@
 
 use egui::{Context, Key, Modifiers};
 use rig::{
-    Command, EditCommand, KineticsMode, PoseCommand, PuppetCommand, Side, Snapshot, Touch, TransportCommand,
-    ViewCommand,
+    Command, EditCommand, KineticsMode, PoseCommand, PuppetCommand, PuppetPose, Side, Snapshot, Touch,
+    TransportCommand, ViewCommand,
 };
 
 use super::shortcuts::{Act, Place, SHORTCUTS};
 use super::transport::between_neighbours;
 use super::transport_buttons::stepped_speed;
-use super::{Commands, keys};
+use super::{Commands, keys, puppet_state};
 
 const NONE: Modifiers = Modifiers::NONE;
 
@@ -165,7 +165,7 @@ fn edit(act: Act, seen: &Snapshot) -> Option<Command> {
             let secs = between_neighbours(seen, key, secs);
             Some(Command::Edit(EditCommand::MoveKey { key, secs }))
         }
-        Act::Store => seen.figure.as_ref().map(|_| keys::store_command(seen)),
+        Act::Store => keys::can_store(seen).then(|| keys::store_command(seen)),
         Act::Copy => keys::copy_command(seen),
         Act::Delete => keys::delete_command(seen),
         Act::Mode => {
@@ -180,6 +180,7 @@ fn edit(act: Act, seen: &Snapshot) -> Option<Command> {
         Act::Undo => Some(Command::Undo),
         Act::Redo => Some(Command::Redo),
         Act::Save => Some(Command::Save),
+        Act::Teach => seen.puppet.as_ref().map(|_| puppet_state::teach_command(seen)),
         Act::Lead => {
             let leads = seen.puppet.as_ref()?.compensates_lag;
             Some(Command::Puppet(PuppetCommand::CompensateLag(!leads)))
@@ -189,7 +190,16 @@ fn edit(act: Act, seen: &Snapshot) -> Option<Command> {
 }
 
 fn pose(act: Act, seen: &Snapshot) -> Option<Command> {
+    let puppet = seen.puppet_pose.as_ref();
+    let figure = seen
+        .figure
+        .as_ref()
+        .filter(|figure| figure.posing || !puppet.is_some_and(|p| p.by_hand));
     let pose = match act {
+        Act::FromClip if figure.is_none() => {
+            return puppet.map(|_| Command::PuppetPose(PuppetPose::FromClip));
+        }
+        Act::FromMeasured => return puppet.map(|_| Command::PuppetPose(PuppetPose::FromMeasured)),
         Act::Link(by) => PoseCommand::Step(by),
         Act::Twist(steps) => PoseCommand::Twist {
             by_rad: steps * std::f64::consts::PI / 16.0,

@@ -2,7 +2,7 @@
 
 use egui::accesskit::Role;
 use egui::{Align2, Rect, ScrollArea, Sense, Ui, pos2, vec2};
-use rig::{Command, EditCommand, KeyView, Snapshot, TransportCommand};
+use rig::{Command, EditCommand, KeyView, Snapshot, TeachCommand, TransportCommand};
 
 use super::button::{self, Button};
 use super::style::ink;
@@ -16,6 +16,8 @@ pub struct Keys {
     shown: Option<usize>,
 }
 
+/// Between keys that are taught one after the other, seconds: they are given their times afterwards.
+const TAUGHT_STEP_SECS: f64 = 1.0;
 /// Height of a row, points.
 const ROW: f32 = 20.0;
 
@@ -55,10 +57,7 @@ impl Keys {
     fn list(&mut self, ui: &mut Ui, area: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
         ui.painter().rect_filled(area, style::round(), ink(theme::GROUND));
         if seen.keys.is_empty() {
-            let text = (
-                "No key yet: pose the figure, then store",
-                style::words(theme::SIZE_BODY),
-            );
+            let text = ("No key yet: pose, then store", style::words(theme::SIZE_BODY));
             style::line(
                 ui.painter(),
                 area.center(),
@@ -152,7 +151,7 @@ pub fn paint_diamond(painter: &egui::Painter, at: egui::Pos2, radius: f32, colou
 
 fn edit_buttons(ui: &mut Ui, area: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
     let cells: Vec<Rect> = layout::columns(area, 3, theme::STEP).collect();
-    let posed = seen.figure.is_some();
+    let posed = can_store(seen);
     let store = Button::new(
         "Store",
         "Stores the pose on screen: in the selected key, else as a new one at the present time.",
@@ -177,9 +176,21 @@ fn edit_buttons(ui: &mut Ui, area: Rect, seen: &Snapshot, commands: &mut Command
     }
 }
 
+/// Whether there is a pose to store: the figure's, or the puppet's own.
+pub fn can_store(seen: &Snapshot) -> bool {
+    seen.figure.is_some() || seen.puppet_pose.is_some()
+}
+
 /// Stores the pose on screen: into the selected key, which is the one at hand, or else at the present time. A
 /// second key a few milliseconds beside the first would send the kinetic curve far out of its way.
+///
+/// While somebody teaches, it is what the servos measure; at the end of the clip time goes on to the next.
 pub fn store_command(seen: &Snapshot) -> Command {
+    if seen.teaching {
+        let adds = seen.transport.secs >= seen.transport.end_secs;
+        let step_secs = if adds { TAUGHT_STEP_SECS } else { 0.0 };
+        return Command::Teach(TeachCommand::Store { step_secs });
+    }
     let selected = seen.keys.iter().find(|key| key.selected);
     Command::Edit(EditCommand::StoreKey {
         secs: selected.map_or(seen.transport.secs, |key| key.secs),

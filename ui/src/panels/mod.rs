@@ -11,6 +11,8 @@ pub mod devices;
 pub mod dial;
 pub mod header;
 pub mod help;
+pub mod hold;
+pub mod joint_words;
 pub mod joints;
 pub mod keyboard;
 pub mod keys;
@@ -18,12 +20,14 @@ pub mod kinetics;
 pub mod layout;
 pub mod patch;
 pub mod puppet;
+pub mod puppet_state;
 pub mod shortcuts;
 pub mod strain;
 pub mod style;
 pub mod transport;
 pub mod transport_buttons;
 pub mod view;
+pub mod vitals;
 
 pub use choices::Choices;
 

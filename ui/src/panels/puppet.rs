@@ -1,26 +1,27 @@
 //! The servo puppet: what it does, how it stands, where its joints are against where they should be, and the
 //! large STOP.
 
-use egui::{Align2, Rect, Ui, pos2, vec2};
-use rig::{Command, PuppetCommand, PuppetState, PuppetView, Snapshot};
+use egui::accesskit::Role;
+use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
+use rig::{Command, JointView, PuppetCommand, PuppetPoseView, PuppetState, PuppetView, Snapshot};
 
-use super::button::{Button, Tone};
-use super::style::ink;
-use super::{Commands, Panel, canvas, joints, layout, style};
+use super::button::{self, Button, Tone};
+use super::hold::Hold;
+use super::puppet_state::{self, SWITCH};
+use super::{Commands, Panel, canvas, joints, layout, style, vitals};
 use crate::render::puppet as measured;
-use crate::render::theme::{self, Rgb};
-use crate::render::timeline::clock_text;
+use crate::render::theme;
 
 /// The servo puppet.
 #[derive(Default)]
-pub struct Puppet;
+pub struct Puppet {
+    hold: Hold,
+}
 
 /// Heights of STOP, points: the largest button there is.
 const STOP: [f32; 2] = [44.0, 72.0];
 /// Heights of what a fault or the player has to say, points: two lines or four, kept free so that nothing jumps.
-const REMARK: [f32; 2] = [2.0 * LINE, 4.0 * LINE];
-/// Height of a line of it, points.
-const LINE: f32 = 15.0;
+const REMARK: [f32; 2] = [2.0 * puppet_state::LINE, 4.0 * puppet_state::LINE];
 /// Least height of the block with STOP and the puppet's picture, points.
 const BLOCK: f32 = STATE + STOP[0] + ORDERS + theme::GAP;
 /// The picture's part of the width, and how wide it is for its height: as a standing figure with an arm out.
@@ -36,6 +37,7 @@ struct Parts {
     stop: Rect,
     orders: Rect,
     picture: Rect,
+    vitals: Rect,
     remark: Rect,
     joints: Rect,
 }
@@ -43,12 +45,12 @@ struct Parts {
 impl Parts {
     /// Divides what the title leaves; `joints` is how high their table would like to be.
     fn of(rest: Rect, joints: f32) -> Parts {
-        let below = REMARK[0] + 2.0 * theme::GAP + joints;
+        let below = REMARK[0] + vitals::HEIGHT + 2.0 * theme::GAP + joints;
         let tallest = (rest.width() * PICTURE[0] / PICTURE[1]).max(BLOCK);
         let block = (rest.height() - below).clamp(BLOCK, tallest).floor();
         let width = (block * PICTURE[1]).round();
-        let spare = rest.height() - block - 2.0 * theme::GAP - joints;
-        let said = ((spare / LINE).floor() * LINE).clamp(REMARK[0], REMARK[1]);
+        let spare = rest.height() - block - vitals::HEIGHT - 2.0 * theme::GAP - joints;
+        let said = ((spare / puppet_state::LINE).floor() * puppet_state::LINE).clamp(REMARK[0], REMARK[1]);
         let bottom = rest.top() + block;
         let split = rest.right() - width;
         let rect = |x0: f32, y0: f32, x1: f32, y1: f32| Rect::from_min_max(pos2(x0, y0), pos2(x1, y1));
@@ -56,12 +58,14 @@ impl Parts {
         let orders = bottom - ORDERS;
         let stop_bottom = orders - theme::GAP;
         let stop = (stop_bottom - STOP[1]).max(rest.top() + STATE);
-        let remark = bottom + theme::GAP;
+        let vitals = bottom + theme::STEP;
+        let remark = vitals + vitals::HEIGHT + theme::STEP;
         Parts {
             state: rect(left, rest.top(), right, rest.top() + STATE),
             stop: rect(left, stop, right, stop_bottom),
             orders: rect(left, orders, right, bottom),
             picture: rect(split, rest.top(), rest.right(), bottom),
+            vitals: rect(left, vitals, rest.right(), vitals + vitals::HEIGHT),
             remark: rect(left, remark, rest.right(), remark + said),
             joints: rect(left, remark + said + theme::GAP, rest.right(), rest.bottom()),
         }
@@ -75,146 +79,90 @@ impl Panel for Puppet {
 
     fn ui(&mut self, ui: &mut Ui, seen: &Snapshot, commands: &mut Commands<'_>) {
         let area = layout::inside(ui.max_rect());
-        let puppet = seen.puppet.as_ref();
+        let driven = seen.puppet.as_ref();
+        let stand_in = seen
+            .puppet_pose
+            .as_ref()
+            .filter(|_| driven.is_none())
+            .map(on_screen);
+        let puppet = driven.or(stand_in.as_ref());
         let rest = style::title(ui.painter(), area, self.title());
         let joints = puppet.map_or(0.0, |p| joints::height_wanted(&p.joints));
         let parts = Parts::of(rest, joints);
-        stop_button(ui, parts.stop, puppet, commands);
-        orders(ui, parts.orders, puppet, seen.clip.is_some(), commands);
-        picture(ui, parts.picture, puppet);
+        stop_button(ui, parts.stop, driven, commands);
+        orders(ui, parts.orders, driven, can_play(seen), commands);
+        puppet_state::switches(ui, parts.state, seen, commands);
+        self.picture(ui, parts.picture, seen, commands);
         let Some(puppet) = puppet else {
-            let text = ("This show has no puppet", style::words(theme::SIZE_BODY));
+            let text = ("No puppet", style::words(theme::SIZE_BODY));
             let at = parts.state.left_top();
-            style::line(
-                ui.painter(),
-                at,
-                Align2::LEFT_TOP,
-                text,
-                theme::DIM,
-                parts.state.width(),
-            );
+            let width = parts.state.width() - SWITCH[0];
+            style::line(ui.painter(), at, Align2::LEFT_TOP, text, theme::DIM, width);
             return;
         };
         let name = (puppet.name.as_str(), style::words(theme::SIZE_SMALL));
-        let width = area.width() - 64.0;
-        style::line(
-            ui.painter(),
-            area.right_top(),
-            Align2::RIGHT_TOP,
-            name,
-            theme::DIM,
-            width,
-        );
-        state_lines(ui, parts.state, puppet);
-        remark_lines(ui, parts.remark, puppet);
-        joints::show(ui, parts.joints, puppet);
+        let (at, width) = (area.right_top(), area.width() - 64.0);
+        style::line(ui.painter(), at, Align2::RIGHT_TOP, name, theme::DIM, width);
+        puppet_state::show(ui, parts.state, puppet, seen);
+        vitals::show(ui, parts.vitals, puppet);
+        puppet_state::remark(ui, parts.remark, puppet, seen);
+        joints::show(ui, parts.joints, puppet, seen, commands);
     }
 }
 
-/// The puppet where it was measured.
-fn picture(ui: &Ui, area: Rect, puppet: Option<&PuppetView>) {
-    let aspect = f64::from(area.width() / area.height().max(1.0));
-    canvas::show(ui, area, "puppet", &measured::scene(puppet, aspect));
-    let edge = style::hair(theme::EDGE);
-    ui.painter()
-        .rect_stroke(area, 0.0, edge, egui::StrokeKind::Inside);
-    let text = ("measured", style::words(theme::SIZE_SMALL));
-    let at = area.left_top() + vec2(6.0, 4.0);
-    style::line(
-        ui.painter(),
-        at,
-        Align2::LEFT_TOP,
-        text,
-        theme::FAINT,
-        area.width() - 8.0,
-    );
-    let id = ui.scope_id().with("picture");
-    let response = ui.interact(area, id, egui::Sense::hover());
-    response.on_hover_text("The puppet as its servos say it stands, not as it was asked to.");
-}
-
-/// A state in words and in its colour.
-fn state_word(state: PuppetState) -> (&'static str, Rgb) {
-    match state {
-        PuppetState::Released => ("released", theme::DIM),
-        PuppetState::Arming => ("arming", theme::LIVE),
-        PuppetState::Holding => ("holding", theme::LIVE),
-        PuppetState::Playing => ("playing", theme::LIVE),
-        PuppetState::Faulted => ("faulted", theme::FAULTED),
-    }
-}
-
-/// The state, large; beneath it the torque, and the clip's time while it plays.
-fn state_lines(ui: &Ui, area: Rect, puppet: &PuppetView) {
-    let (word, colour) = state_word(puppet.state);
-    let painter = ui.painter();
-    let upper = area.top() + 8.0;
-    let lamp = pos2(area.left() + 5.0, upper);
-    if puppet.state == PuppetState::Released {
-        painter.circle_stroke(lamp, 4.0, egui::Stroke::new(1.5, ink(colour)));
-    } else {
-        painter.circle_filled(lamp, 4.5, ink(colour));
-    }
-    let left = area.left() + 18.0;
-    let font = style::words(theme::SIZE_TITLE);
-    painter.text(pos2(left, upper), Align2::LEFT_CENTER, word, font, ink(colour));
-    let lower = area.top() + 27.0;
-    let torque = if puppet.torque { "torque on" } else { "no torque" };
-    let font = style::words(theme::SIZE_SMALL);
-    painter.text(
-        pos2(left, lower),
-        Align2::LEFT_CENTER,
-        torque,
-        font,
-        ink(theme::DIM),
-    );
-    if let Some(secs) = puppet.clip_secs {
-        let text = format!("{} s", clock_text(secs));
-        let (at, font) = (pos2(area.right(), lower), style::digits(theme::SIZE_BODY));
-        painter.text(at, Align2::RIGHT_CENTER, text, font, ink(theme::LIVE));
-    }
-}
-
-fn remark_lines(ui: &Ui, area: Rect, puppet: &PuppetView) {
-    let (text, colour) = match (&puppet.fault, puppet.state) {
-        (Some(fault), _) => (fault.clone(), theme::TEXT),
-        (None, PuppetState::Faulted) => ("Stopped. Reset, then arm.".to_owned(), theme::TEXT),
-        (None, _) => (doings(puppet), theme::DIM),
+/// A puppet that nobody drives, as it is posed on screen.
+fn on_screen(pose: &PuppetPoseView) -> PuppetView {
+    let joint = |(name, range_rad): (&String, &[f64; 2])| JointView {
+        name: name.clone(),
+        range_rad: *range_rad,
+        age_secs: f64::INFINITY,
+        ..JointView::default()
     };
-    let mut job = egui::text::LayoutJob::single_section(
-        text.clone(),
-        egui::TextFormat::simple(style::words(theme::SIZE_SMALL + 1.0), ink(colour)),
-    );
-    job.wrap = egui::text::TextWrapping {
-        max_width: area.width(),
-        max_rows: (area.height() / LINE) as usize,
-        ..Default::default()
-    };
-    let galley = ui.painter().layout_job(job);
-    let cut = galley.elided;
-    ui.painter().galley(area.min, galley, ink(colour));
-    let response = ui.interact(area, ui.scope_id().with("remark"), egui::Sense::hover());
-    if cut {
-        response.on_hover_text(text);
+    PuppetView {
+        name: pose.puppet.clone(),
+        joints: pose.names.iter().zip(&pose.ranges_rad).map(joint).collect(),
+        ..PuppetView::default()
     }
 }
 
-/// What the servo loop noticed, in one line.
-fn doings(puppet: &PuppetView) -> String {
-    let counts = [
-        (puppet.interventions, "goal", "limited"),
-        (puppet.stale_discarded, "answer", "too late"),
-        (puppet.late_cycles, "cycle", "late"),
-    ];
-    let said: Vec<String> = counts
-        .iter()
-        .filter(|(count, ..)| *count > 0)
-        .map(|(count, what, how)| format!("{count} {what}{} {how}", if *count == 1 { "" } else { "s" }))
-        .collect();
-    if said.is_empty() {
-        "nothing limited, nothing late".to_owned()
-    } else {
-        said.join(", ")
+/// Whether there is something to play: a figure's clip, or one of joints.
+fn can_play(seen: &Snapshot) -> bool {
+    seen.clip.is_some() || (seen.figure.is_none() && !seen.keys.is_empty())
+}
+
+impl Puppet {
+    /// The puppet where it was measured; ends of links can be dragged to pose it on screen.
+    fn picture(&mut self, ui: &Ui, area: Rect, seen: &Snapshot, commands: &mut Commands<'_>) {
+        let id = ui.scope_id().with("picture");
+        let pose = seen.puppet_pose.as_ref();
+        let sense = if pose.is_some() {
+            Sense::drag()
+        } else {
+            Sense::hover()
+        };
+        let response = button::spot(ui, area, id, sense, (Role::Canvas, "puppet picture"));
+        let near = response.hovered() || response.dragged();
+        let driven = seen.puppet.is_some();
+        let posing = pose.filter(|pose| near || pose.by_hand || !driven);
+        let aspect = f64::from(area.width() / area.height().max(1.0));
+        let scene = measured::scene(seen.puppet.as_ref(), posing, aspect);
+        canvas::show(ui, area, "puppet", &scene);
+        let edge = style::hair(theme::EDGE);
+        ui.painter()
+            .rect_stroke(area, 0.0, edge, egui::StrokeKind::Inside);
+        let text = if driven { "measured" } else { "on screen" };
+        let text = (text, style::words(theme::SIZE_SMALL));
+        let at = area.left_top() + vec2(6.0, 4.0);
+        let width = area.width() - 8.0;
+        style::line(ui.painter(), at, Align2::LEFT_TOP, text, theme::FAINT, width);
+        if let Some(pose) = posing {
+            self.hold
+                .drag(ui, (area, &scene.camera), &response, pose, commands);
+            self.hold.mark(ui, (area, &scene.camera), &response, pose);
+        }
+        let tip = "The puppet as its servos say it stands, and faintly where it was asked to be. Drag an end to pose \
+                   it on screen; K stores the pose where the clip is one of joints.";
+        button::tooltip_at_pointer(response, tip, "B, Shift-B");
     }
 }
 

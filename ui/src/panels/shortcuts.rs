@@ -56,6 +56,8 @@ pub enum Act {
     OtherSide,
     /// Takes the clip's pose.
     FromClip,
+    /// Takes the pose in which the servos stand.
+    FromMeasured,
     /// Moves the posing cursor.
     Cursor(f64, f64),
     /// Turns the chosen dial, in presses.
@@ -88,6 +90,8 @@ pub enum Act {
     SlowToFit,
     /// Puppet: goals ahead of time by each joint's lag, or not.
     Lead,
+    /// Puppet: teach, or stop teaching.
+    Teach,
     /// The help page.
     Help,
     /// The patch panel instead of the figure, or back.
@@ -242,6 +246,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row((NONE, Key::Period), Act::Link(1), "pose", "", ""),
     row((NONE, Key::Enter), Act::Place, "pose", "Enter", "fix the link, go to the next"),
     row((NONE, Key::N), Act::OtherSide, "pose", "N", "near or far"),
+    row((SHIFT, Key::B), Act::FromMeasured, "pose", "Shift-B", "the pose of the servos"),
     row((NONE, Key::B), Act::FromClip, "pose", "B", "back to the clip's pose"),
     row((SHIFT, Key::OpenBracket), Act::Dial(-10.0), "desk", "[ ] with Shift", "turn the chosen dial"),
     row((SHIFT, Key::CloseBracket), Act::Dial(10.0), "desk", "", ""),
@@ -255,6 +260,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row((NONE, Key::PageDown), Act::Zoom(0.8), "view", "", ""),
     row((NONE, Key::V), Act::Fit, "view", "V", "the whole figure"),
     row((NONE, Key::O), Act::Onion, "view", "O T G", "onion skin, ticks, floor"),
+    on_stage(row((SHIFT, Key::T), Act::Teach, "puppet", "Shift-T", "teach by hand, torque off")),
     row((NONE, Key::T), Act::Ticks, "view", "", ""),
     row((NONE, Key::G), Act::Floor, "view", "", ""),
     row((CTRL, Key::R), Act::Reset, "puppet", "Ctrl-R", "reset after a fault"),

@@ -6,6 +6,7 @@ use egui::{Align2, PointerButton, Pos2, Rect, Response, Sense, Ui, pos2, vec2};
 use rig::{Command, FigureView, Note, NoteLevel, PoseCommand, Snapshot, ViewCommand};
 
 use super::button::{self, Button};
+use super::hold::Hold;
 use super::style::{self, ink};
 use super::{Commands, Panel, canvas};
 use crate::render::camera::Camera;
@@ -15,6 +16,7 @@ use crate::render::{stage, theme};
 #[derive(Default)]
 pub struct Front {
     posing: bool,
+    hold: Hold,
 }
 
 /// The narrow view from the right.
@@ -47,7 +49,7 @@ impl Panel for Front {
         caption(ui, area, "front", &angles(seen));
         switches(ui, area, commands);
         remark(ui, area, seen);
-        if seen.figure.is_none() && seen.display.is_empty() {
+        if seen.figure.is_none() && seen.puppet_pose.is_none() && seen.display.is_empty() {
             let text = ("This show has no figure", style::words(theme::SIZE_TITLE));
             style::line(
                 ui.painter(),
@@ -73,6 +75,14 @@ impl Front {
         commands: &mut Commands<'_>,
     ) {
         let figure = seen.figure.as_ref();
+        let puppet = seen.puppet_pose.as_ref().filter(|_| figure.is_none());
+        if let Some(pose) = puppet {
+            let holds = self.hold.drag(ui, (area, camera), response, pose, commands);
+            self.hold.mark(ui, (area, camera), response, pose);
+            if holds {
+                return;
+            }
+        }
         let under = |at: Pos2| figure.and_then(|f| link_under(f, camera, area, at));
         let origin = ui.input(|input| input.pointer.press_origin());
         let started = response.drag_started_by(PointerButton::Primary);

@@ -5,6 +5,7 @@ use rig::{FigureView, Snapshot, StretchView, ViewState};
 
 use super::camera::Camera;
 use super::figure::{self, Style};
+use super::puppet;
 use super::scene::{Ink, Layer, Mark, Place, Scene};
 use super::structures;
 use super::theme;
@@ -75,12 +76,14 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
     let mut scene = Scene::new(camera(&seen.view));
     let samples = seen.clip.as_ref().map(|clip| Samples::of(clip, look.tick_secs));
     let shown = seen.figure.as_ref();
-    let anything = shown.is_some() || samples.is_some() || !seen.display.is_empty();
+    let alone = seen.puppet_pose.as_ref().filter(|_| shown.is_none());
+    let anything = shown.is_some() || samples.is_some() || alone.is_some() || !seen.display.is_empty();
     if look.floor && anything {
         let lowest = samples
             .as_ref()
             .and_then(Samples::lowest)
-            .or_else(|| trail::lowest(shown.iter().flat_map(|figure| &figure.placed)));
+            .or_else(|| trail::lowest(shown.iter().flat_map(|figure| &figure.placed)))
+            .or_else(|| alone.map(puppet::floor));
         add_floor(&mut scene, lowest.unwrap_or(0.0));
     }
     if let (true, Some(clip), Some(figure)) = (look.onion, &seen.clip, shown) {
@@ -95,6 +98,9 @@ pub fn scene(seen: &Snapshot, look: &Look) -> Scene {
         }
     }
     structures::add(&mut scene, &seen.display);
+    if let Some(pose) = alone {
+        puppet::add(&mut scene, pose, seen.puppet.as_ref());
+    }
     if let Some(figure) = shown {
         let selected = figure.selected.filter(|_| look.editing).map(usize::from);
         figure::add(
@@ -145,7 +151,8 @@ fn strained(seen: &Snapshot) -> impl Iterator<Item = (usize, &StretchView)> {
 /// Where on its way a link is asked too much: of extremities around the present moment, of the selected link always.
 fn add_strained_trails(scene: &mut Scene, samples: &Samples, figure: &FigureView, seen: &Snapshot) {
     let now_secs = seen.transport.secs;
-    let ink = Ink::new(theme::TOO_MUCH, Layer::Trail);
+    // Over the ticks of the same way.
+    let ink = Ink::new(theme::TOO_MUCH, Layer::Figure);
     for (link, stretch) in strained(seen) {
         let [from, to] = if figure.selected.map(usize::from) == Some(link) {
             [stretch.from_secs, stretch.to_secs]
@@ -156,7 +163,7 @@ fn add_strained_trails(scene: &mut Scene, samples: &Samples, figure: &FigureView
             ]
         };
         if from < to {
-            samples.add_trail(scene, link, [from, to], ink, &[]);
+            samples.add_stretch(scene, link, [from, to], ink);
         }
     }
 }

@@ -41,7 +41,10 @@ pub fn draw(seen: &Snapshot, look: &Look, caption: &str, width: u32, height: u32
     let views = [
         (scene.clone(), "figure"),
         (scene.side(), "side"),
-        (puppet::scene(seen.puppet.as_ref(), aspect), "puppet, measured"),
+        (
+            puppet::scene(seen.puppet.as_ref(), None, aspect),
+            "puppet, measured",
+        ),
     ];
     for ((scene, name), width) in views.into_iter().zip(widths) {
         let width = width.min(picture.width - x);

@@ -75,6 +75,8 @@ pub const WIDTH_LINK: f32 = 3.0;
 pub const WIDTH_SELECTED: f32 = 4.0;
 /// Width of ghosts and trails; points.
 pub const WIDTH_GHOST: f32 = 1.3;
+/// Width of a stretch of a trail that must be noticed; points.
+pub const WIDTH_STRETCH: f32 = 2.4;
 /// Width of grid lines; points.
 pub const WIDTH_GRID: f32 = 1.0;
 /// What is left of a line's brightness at the far end of the depth cue.

@@ -118,6 +118,16 @@ impl Samples {
             }
         }
     }
+
+    /// Adds a stretch of the way of `link`'s end as one bold line, the same near and far.
+    pub fn add_stretch(&self, scene: &mut Scene, link: usize, [from_secs, to_secs]: [f64; 2], ink: Ink) {
+        let ways = self.secs.iter().zip(&self.placed);
+        let inside = ways.filter(|(secs, _)| (from_secs..=to_secs).contains(*secs));
+        let points: Vec<DVec3> = inside
+            .filter_map(|(_, placed)| Some(placed.get(link)?.end))
+            .collect();
+        scene.polyline(&points, theme::WIDTH_STRETCH, ink.flat());
+    }
 }
 
 /// The lowest point of some links.

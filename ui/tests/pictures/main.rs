@@ -2,6 +2,7 @@
 
 mod hands;
 mod patch;
+mod puppets;
 mod render;
 mod structures;
 mod studio;

@@ -64,7 +64,7 @@ pub(crate) fn keep(picture: &Picture, name: &str) {
     write_png(picture, file).expect("a picture is a PNG");
 }
 
-fn drawn(seen: Snapshot, size: [f32; 2], name: &str) -> Picture {
+pub(crate) fn drawn(seen: Snapshot, size: [f32; 2], name: &str) -> Picture {
     let mut harness = harness(seen, size, true);
     harness.run_steps(2);
     let image = harness.render().expect("the adapter that started also draws");

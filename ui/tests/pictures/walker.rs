@@ -224,11 +224,74 @@ const JOINTS: [&str; 20] = [
     "l_ankle",
 ];
 
+/// The link that a joint moves, by its place in [`LINKS`].
+fn link_of(joint: &str) -> usize {
+    const ENDINGS: [(&str, usize); 12] = [
+        ("neck_yaw", 0),
+        ("neck_pitch", 0),
+        ("r_shoulder_pitch", 2),
+        ("r_shoulder_roll", 2),
+        ("r_elbow", 3),
+        ("r_wrist", 4),
+        ("waist_yaw", 8),
+        ("waist_pitch", 8),
+        ("r_hip_roll", 9),
+        ("r_hip_pitch", 9),
+        ("r_knee", 10),
+        ("r_ankle", 11),
+    ];
+    let right = joint.replacen("l_", "r_", 1);
+    let found = ENDINGS.iter().find(|(name, _)| *name == joint || *name == right);
+    let link = found.map_or(1, |(_, link)| *link);
+    match (joint.starts_with("l_"), link) {
+        (true, 2..=7 | 9..=11) => link + 3,
+        _ => link,
+    }
+}
+
+/// A figure's lines from its trunk, first the trunk, and what joins them: the puppet is where the figure was `secs`.
+fn bones(figure: &Arc<Figure>, clip: &Clip, secs: f64) -> Vec<[DVec3; 2]> {
+    let placed = figure_view(figure, clip, secs).placed;
+    let base = placed[1].start;
+    let line = |link: usize| [placed[link].start - base, placed[link].end - base];
+    let order = bone_order();
+    let mut lines: Vec<[DVec3; 2]> = order.iter().map(|link| line(*link)).collect();
+    for (number, .., children) in LINKS {
+        for (child, _) in children.iter().filter(|(child, _)| *child != 1) {
+            let ([from, to], start) = (line(number as usize), line(*child as usize)[0]);
+            let nearer = if start.distance(from) < start.distance(to) {
+                from
+            } else {
+                to
+            };
+            lines.push([nearer, start]);
+        }
+    }
+    lines
+}
+
+/// Links in the order of the puppet's groups: the trunk carries all others.
+fn bone_order() -> Vec<usize> {
+    std::iter::once(1)
+        .chain(std::iter::once(0))
+        .chain(2..LINKS.len())
+        .collect()
+}
+
 fn joints() -> Vec<JointView> {
     let joint = |(index, name): (usize, &&str)| {
         let goal = (index as f64 * 0.7).sin() * 0.9;
         JointView {
             name: (*name).to_owned(),
+            bone: bone_order()
+                .iter()
+                .position(|link| *link == link_of(name))
+                .unwrap_or(0),
+            lag_secs: Some(if *name == "r_wrist" {
+                0.084
+            } else {
+                0.03 + index as f64 * 1e-3
+            }),
             goal_rad: Some(goal),
             measured_rad: Some(goal + 0.06 * (index as f64 * 1.9).cos()),
             age_secs: 0.012,
@@ -243,8 +306,11 @@ fn joints() -> Vec<JointView> {
     JOINTS.iter().enumerate().map(joint).collect()
 }
 
-fn puppet() -> PuppetView {
+fn puppet(figure: &Arc<Figure>, clip: &Clip) -> PuppetView {
     PuppetView {
+        bones: bones(figure, clip, 0.80),
+        goal_bones: bones(figure, clip, 0.86),
+        pace: 1.0,
         name: "marionette".into(),
         state: PuppetState::Playing,
         fault: None,
@@ -293,6 +359,7 @@ pub(crate) fn playing() -> Snapshot {
             })
             .collect(),
         kinetics: kinetics(&clip),
+        puppet: Some(puppet(&figure, &clip)),
         clip: Some(clip),
         transport: TransportView {
             secs,
@@ -308,7 +375,6 @@ pub(crate) fn playing() -> Snapshot {
             scale: 0.88,
             centre: DVec3::new(0.0, 0.74, 0.0),
         },
-        puppet: Some(puppet()),
         devices: devices(),
         undo: Some("store key 6".into()),
         notes: vec![Note {

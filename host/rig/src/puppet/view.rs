@@ -18,10 +18,9 @@ pub(super) fn of(profile: &PuppetProfile, report: &Report, now: Instant) -> Pupp
         State::Playing => (PuppetState::Playing, None),
         State::Faulted(fault) => (PuppetState::Faulted, Some(fault.to_string())),
     };
-    let joints = profile
-        .joints()
+    let joints = of_bones(profile)
         .zip(&report.joints)
-        .map(|(joint, report)| seen(joint, report, now))
+        .map(|((bone, joint), report)| seen((bone, joint), report, now))
         .collect();
     PuppetView {
         name: profile.name.clone(),
@@ -34,6 +33,7 @@ pub(super) fn of(profile: &PuppetProfile, report: &Report, now: Instant) -> Pupp
         late_cycles: report.late_ticks,
         bones: Vec::new(),
         on_its_base: profile.figure.is_none(),
+        goal_bones: Vec::new(),
         torque: report.torque,
         torque_unknown: report.torque_unknown,
         compensates_lag: report.compensates_lag,
@@ -45,10 +45,10 @@ pub(super) fn of(profile: &PuppetProfile, report: &Report, now: Instant) -> Pupp
 
 /// A puppet whose lines are not open.
 pub(super) fn absent(profile: &PuppetProfile, why: String) -> PuppetView {
-    let joints = profile
-        .joints()
-        .map(|joint| JointView {
+    let joints = of_bones(profile)
+        .map(|(bone, joint)| JointView {
             name: joint.name.clone(),
+            bone,
             range_rad: [joint.min_rad, joint.max_rad],
             ..JointView::default()
         })
@@ -62,9 +62,19 @@ pub(super) fn absent(profile: &PuppetProfile, why: String) -> PuppetView {
     }
 }
 
+/// Joints, each with the line it moves: lines of groups come first, in the profile's order.
+fn of_bones(profile: &PuppetProfile) -> impl Iterator<Item = (usize, &PuppetJoint)> {
+    let groups = profile.groups.iter().enumerate();
+    groups.flat_map(|(bone, group)| group.joints.iter().map(move |joint| (bone, joint)))
+}
+
 impl PuppetView {
-    /// Draws it where it was last measured; where nothing was, at rest.
+    /// Draws it where it was last measured, or at rest where nothing was; and where its goals are.
     pub(super) fn draw(&mut self, bones: &mut Bones) {
+        let goals_rad: Option<Vec<f64>> = self.joints.iter().map(|joint| joint.goal_rad).collect();
+        self.goal_bones = goals_rad
+            .map(|goals_rad| bones.at(&goals_rad))
+            .unwrap_or_default();
         let angles_rad: Vec<f64> = self
             .joints
             .iter()
@@ -92,9 +102,10 @@ pub(super) fn backing_off(profile: &PuppetProfile, report: &Report) -> Option<St
     ))
 }
 
-fn seen(joint: &PuppetJoint, report: &JointReport, now: Instant) -> JointView {
+fn seen((bone, joint): (usize, &PuppetJoint), report: &JointReport, now: Instant) -> JointView {
     JointView {
         name: joint.name.clone(),
+        bone,
         goal_rad: report.goal_rad,
         measured_rad: report.measured_rad,
         age_secs: report

@@ -321,10 +321,11 @@ impl Rig {
     }
 
     fn reset_view(&mut self) {
-        self.view = match (&self.history.present().view, &self.stage) {
-            (Some(view), _) => view.clone(),
-            (None, Some(stage)) => ViewState::holding(stage.placed()),
-            (None, None) => ViewState::default(),
+        self.view = match (&self.history.present().view, &self.stage, &mut self.rehearsing) {
+            (Some(view), ..) => view.clone(),
+            (None, Some(stage), _) => ViewState::holding(stage.placed()),
+            (None, None, Some(rehearsing)) => ViewState::beside(&rehearsing.pose_view().bones),
+            (None, None, None) => ViewState::default(),
         };
     }
 
