@@ -25,8 +25,9 @@ pub(super) const TURNAROUND: Duration = Duration::from_micros(100);
 const GUARD: Duration = Duration::from_millis(2);
 /// How late a servo itself may answer; see [`Owed`].
 const LATE_MAX: Duration = Duration::from_millis(100);
-/// So long before the last answer is due bytes may wake a thread; those before it are not worth it.
-const AHEAD: Duration = Duration::from_micros(200);
+/// So long before the last answer is due bytes may wake a thread; those before it are not worth it. A busy machine
+/// wakes a sleeper a millisecond late.
+const AHEAD: Duration = Duration::from_millis(2);
 /// Servos that one line can have, for the room kept for them.
 const SERVOS_MAX: usize = 254;
 
