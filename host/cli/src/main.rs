@@ -9,6 +9,7 @@ mod args;
 mod command;
 mod console;
 mod failure;
+mod guard;
 mod input;
 mod interrupt;
 mod number;

@@ -54,6 +54,8 @@ pub(crate) struct LiveSetup {
     pub(crate) ports: Vec<String>,
     /// Control cycles.
     pub(crate) period: Duration,
+    /// The puppet is played only while heartbeats come at least this often.
+    pub(crate) heartbeat: Option<Duration>,
 }
 
 impl LiveSetup {
@@ -70,7 +72,11 @@ impl LiveSetup {
             .puppet(&self.profiles, Pace::OwnThread, self.period)
             .map_err(|e| refused(&e))?
             .map(|spec| self.addressed(spec))
-            .transpose()?;
+            .transpose()?
+            .map(|mut spec| {
+                spec.config.heartbeat_max = self.heartbeat;
+                spec
+            });
         let mut inputs = self.equipment.inputs();
         inputs.extend(self.inputs);
         let options = RigOptions {

@@ -46,6 +46,8 @@ pub struct PlayerConfig {
     pub heartbeat_max: Option<Duration>,
     /// Longest time that a stop waits for joints to stand before it ends anyway.
     pub braking_max: Duration,
+    /// How much longer torque is switched off again and again while not every servo has said that it is.
+    pub confirm_max: Duration,
 }
 
 impl Default for PlayerConfig {
@@ -67,6 +69,7 @@ impl Default for PlayerConfig {
             operator_max: None,
             heartbeat_max: None,
             braking_max: Duration::from_secs(2),
+            confirm_max: Duration::from_secs(2),
         }
     }
 }

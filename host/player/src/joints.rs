@@ -248,6 +248,12 @@ impl Lines {
             .all(|line| !line.is_armed() || line.bus.is_still())
     }
 
+    /// Switches torque off again where servos have not all said that it is; false if there is no such line.
+    pub(crate) fn release_unconfirmed(&mut self, now: Instant) -> bool {
+        let open = self.all.iter_mut().filter(|line| line.unconfirmed && !line.lost);
+        open.map(|line| line.release(now)).count() > 0
+    }
+
     pub(crate) fn release_all(&mut self, now: Instant) {
         for line in &mut self.all {
             line.release(now);

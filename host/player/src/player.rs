@@ -396,7 +396,8 @@ impl Player {
                 line.release(now);
             }
         }
-        if self.lines.all_loose() {
+        let patient = now.since(stopping.since) < self.config.braking_max + self.config.confirm_max;
+        if self.lines.all_loose() && !(patient && self.lines.release_unconfirmed(now)) {
             self.stopping = None;
             if self.state == State::Holding {
                 self.state = State::Released;

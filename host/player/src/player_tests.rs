@@ -437,7 +437,7 @@ fn a_servo_that_never_says_that_it_let_go_leaves_torque_unknown() {
     let mut bench = Bench::holding();
     bench.far[0].desk().silent.insert(12);
     bench.until("faulted");
-    for _ in 0..200 {
+    for _ in 0..300 {
         bench.tick(vec![]);
     }
     assert!(bench.player.report().torque_unknown);

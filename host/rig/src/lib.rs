@@ -38,7 +38,7 @@ pub use command::{
     Command, EditCommand, KineticsMode, NetworkEdit, PoseCommand, PuppetCommand, PuppetPose, Side,
     TeachCommand, Touch, TransportCommand, ViewCommand,
 };
-pub use device_profiles::Profiles;
+pub use device_profiles::{Profiles, Reaction};
 pub use feasibility::{FeasibilityView, StretchKind, StretchView};
 pub use inputs::{InputError, InputSpec};
 pub use live::{Live, LiveError};

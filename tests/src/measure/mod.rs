@@ -6,6 +6,7 @@
 pub mod bus;
 pub mod bus_faults;
 pub mod interpolant;
+pub mod lunge;
 pub mod network;
 pub mod rig_step;
 pub mod servo_cycle;
@@ -26,7 +27,7 @@ pub struct Measure {
 }
 
 /// All measures, in the order in which they are taken.
-pub const MEASURES: [Measure; 6] = [
+pub const MEASURES: [Measure; 7] = [
     Measure {
         name: rig_step::NAME,
         about: "One dial report of the simulated box through a whole step of the rig, with the shipped network \
@@ -62,6 +63,14 @@ pub const MEASURES: [Measure; 6] = [
                 values, values of another servo and values of nobody must be 0. Then what one servo that falls silent \
                 costs the five others: cycles lost, 1 at most; peers: the time of a cycle from then on.",
         take: bus_faults::take,
+    },
+    Measure {
+        name: lunge::NAME,
+        about: "Never a lunge: runs of random clips, seeks, orders, faults and reconnections on shipped puppets, judged by \
+                the simulated shafts (DIALRIG_RUNS, DIALRIG_SEED). violations: runs in which a shaft was faster than \
+                its joint's limit, left its place when torque came on, left its range, or had torque when all was \
+                over; limit 0. fastest, start: the worst over all runs, against the limit: 1 and less is within it.",
+        take: lunge::take,
     },
     Measure {
         name: network::NAME,

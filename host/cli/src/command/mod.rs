@@ -19,6 +19,7 @@ use clap::Subcommand;
 
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
+use crate::guard;
 
 /// Everything that can be asked for.
 #[derive(Debug, Subcommand)]
@@ -36,6 +37,9 @@ pub(crate) enum Command {
     Servo(servo::Args),
     Sim(sim::Args),
     Bench(bench::Args),
+    /// Waits for the program that started it to die, then lets go of its puppet
+    #[command(hide = true)]
+    Guard,
 }
 
 impl Command {
@@ -55,6 +59,7 @@ impl Command {
             Self::Servo(args) => servo::run(args, console),
             Self::Sim(args) => sim::run(args, console),
             Self::Bench(args) => bench::run(args, console),
+            Self::Guard => guard::run(),
         }
     }
 }

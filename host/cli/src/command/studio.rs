@@ -36,6 +36,7 @@ pub(crate) fn run(show: Option<&PathBuf>, console: &Console) -> Result<Exit, Fai
         inputs: Vec::new(),
         ports: Vec::new(),
         period: PERIOD,
+        heartbeat: None,
     };
     let live = Arc::new(setup.start(|_| {})?);
     let session = Seat {

@@ -3,6 +3,7 @@
 mod curve;
 mod documents;
 mod figure;
+mod killed;
 mod live;
 mod net;
 mod streams;

@@ -9,6 +9,8 @@ use device_profiles::{Role, ServoProtocol};
 
 /// A joint that moved further than this between two looks is being moved by somebody.
 const RESTLESS_RAD: f64 = 0.05;
+/// A goal this near to the horn is at the horn: a count of the encoder's own, and one of rounding.
+const PLACE_COUNTS: f64 = 2.5;
 /// How often a joint that moves, or answers late, is measured again before arming is refused. Each time comes after a
 /// silence: together half a second, in which a servo that its own watchdog has just stopped comes to rest.
 const MEASURE_TRIES: u8 = 12;
@@ -235,11 +237,14 @@ impl Bus {
                 continue;
             };
             let goal_rad = slot.member.position_rad(found);
-            // Some firmware lets the goal follow the horn while torque is off, so the goal must be where the
-            // horn is, not to the count what was written.
+            // The goal must be what was written, or where the horn is: some firmware lets it follow the horn while
+            // torque is off. One that is merely near is an older goal whose overwriting was lost, and would be leapt to.
+            let near_rad = PLACE_COUNTS * slot.member.servo().rad_per_count();
+            let in_place =
+                found == pin.position_counts || (reading.position_rad - goal_rad).abs() <= near_rad;
             if (reading.position_rad - pin.position_rad).abs() > RESTLESS_RAD {
                 unpinned.push((at, Why::Restless));
-            } else if (reading.position_rad - goal_rad).abs() > RESTLESS_RAD {
+            } else if !in_place {
                 let (register, wanted) = (Role::GoalPosition, pin.position_counts);
                 unpinned.push((
                     at,

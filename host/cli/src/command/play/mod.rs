@@ -1,5 +1,7 @@
 //! `dialrig play`: plays a show on servos, without a window.
 
+mod report;
+
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::PathBuf;
@@ -8,18 +10,23 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
 
 use bench::world::Equipment;
-use rig::{Command, Live, NoteLevel, PuppetCommand, PuppetState, PuppetView, Snapshot, TransportCommand};
+use rig::{
+    Command, Live, NoteLevel, PuppetCommand, PuppetState, PuppetView, Reaction, Snapshot, TransportCommand,
+};
 
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
+use crate::guard::Guard;
 use crate::interrupt::Interrupt;
 use crate::number;
 use crate::setup::{self, LiveSetup};
+use report::Report;
 
 const EXAMPLES: &str = "\
 Examples:
   dialrig play shows/salute                                   on the simulated marionette
-  dialrig play shows/salute --port /dev/ttyUSB0 --port /dev/ttyUSB1 --log run.csv";
+  dialrig play shows/salute --port /dev/ttyUSB0 --port /dev/ttyUSB1 --log run.csv
+  dialrig play shows/salute --compensate-lag --report run.json";
 
 /// Snapshots that may wait for the log; a second of them.
 const WAITING: usize = 128;
@@ -58,6 +65,15 @@ pub(crate) struct Args {
     /// Goals and readings: t_secs,joint,goal_rad,measured_rad
     #[arg(long, value_name = "FILE.csv")]
     log: Option<PathBuf>,
+    /// Take goals ahead of the clip by as much as each joint lags
+    #[arg(long)]
+    compensate_lag: bool,
+    /// How well the joints followed: tracking error, lag before and after compensation, limits kept
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<PathBuf>,
+    /// Play only while a line comes on standard input at least this often
+    #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u64).range(20..=60_000))]
+    heartbeat: Option<u64>,
 }
 
 fn rate(text: &str) -> Result<f64, String> {
@@ -93,13 +109,16 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         equipment: Equipment {
             knobs: None,
             tablet: None,
-            puppet: Some(puppet),
+            puppet: Some(puppet.clone()),
             ..Equipment::default()
         },
         inputs: Vec::new(),
         ports: args.ports.clone(),
         period: Duration::from_secs_f64(1.0 / args.rate),
+        heartbeat: args.heartbeat.map(Duration::from_millis),
     };
+    let guard = guard(args, &setup.profiles, &puppet, console)?;
+    let profiles = Arc::clone(&setup.profiles);
     let interrupt = Interrupt::listen();
     let (seen, snapshots) = sync_channel(WAITING);
     let live = setup.start(move |snapshot| pass_on(&seen, snapshot))?;
@@ -108,9 +127,19 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         args,
         log: log.as_mut(),
         notes_told: 0,
+        report: Report::default(),
+        beats: args.heartbeat.map(|_| beats()),
+        beaten: false,
     };
     let played = show.play(&live, &snapshots, &interrupt);
     let released = live.close();
+    if let (Some(guard), true) = (guard, released) {
+        guard.dismiss();
+    }
+    if let Some(path) = &args.report {
+        show.report
+            .write(path, &profiles, &puppet, about(args, &puppet, &played))?;
+    }
     if let Some(log) = log {
         log.finish()?;
     }
@@ -119,6 +148,51 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         Ok(()) => Err(Failure::torque_unknown()),
         Err(failure) => Err(failure.after_release(released)),
     }
+}
+
+/// A guard, if the puppet is to be let go of when this program dies, and there is somebody to let go.
+fn guard(
+    args: &Args,
+    profiles: &rig::Profiles,
+    puppet: &str,
+    console: &Console,
+) -> Result<Option<Guard>, Failure> {
+    let Ok(profile) = profiles.puppet(puppet) else {
+        return Ok(None);
+    };
+    if args.ports.is_empty() || profile.policy.on_lost_host != Reaction::Release {
+        return Ok(None);
+    }
+    let bauds = profile.buses.iter().map(|bus| bus.baud);
+    let lines: Vec<(String, u32)> = args.ports.iter().cloned().zip(bauds).collect();
+    let guard = Guard::start(&lines).map_err(|error| {
+        Failure::refused(format!(
+            "the guard that lets go of the puppet did not start: {error}"
+        ))
+    })?;
+    console.remark("a guard lets go of the puppet if this program dies; it cannot if the cable goes");
+    Ok(Some(guard))
+}
+
+/// Lines of standard input as they come.
+fn beats() -> Receiver<()> {
+    let (beat, beats) = sync_channel(WAITING);
+    // Ends with its input, or with the program.
+    std::thread::spawn(move || {
+        let mut lines = std::io::stdin().lines();
+        while let Some(Ok(_)) = lines.next() {
+            let _ = beat.try_send(());
+        }
+    });
+    beats
+}
+
+/// What the report says of the performance as a whole.
+fn about(args: &Args, puppet: &str, played: &Result<(), Failure>) -> serde_json::Value {
+    serde_json::json!({
+        "show": args.show, "puppet": puppet, "simulated": args.ports.is_empty(), "rate_hz": args.rate,
+        "speed": args.speed, "looped": args.looped, "compensated": args.compensate_lag, "played": played.is_ok(),
+    })
 }
 
 /// A log that cannot keep up loses snapshots, never the rig its pace.
@@ -150,6 +224,11 @@ struct Performance<'a> {
     args: &'a Args,
     log: Option<&'a mut Log>,
     notes_told: usize,
+    report: Report,
+    /// Lines of standard input, where they are a heartbeat.
+    beats: Option<Receiver<()>>,
+    /// One has come.
+    beaten: bool,
 }
 
 impl Performance<'_> {
@@ -165,12 +244,14 @@ impl Performance<'_> {
         live.send(Command::Transport(TransportCommand::Speed(self.args.speed)));
         live.send(Command::Transport(TransportCommand::Loop(self.args.looped)));
         let console = self.console;
-        let mut until = |wanted, limit_secs| self.until(snapshots, interrupt, limit_secs, wanted);
+        let compensate = self.args.compensate_lag;
+        let mut until = |wanted, limit_secs| self.until(live, snapshots, interrupt, limit_secs, wanted);
         // Without lines there is nobody to arm.
         until(Wanted::Lines, Some(PATIENCE_SECS))?;
         live.send(Command::Puppet(PuppetCommand::Arm));
         until(Wanted::State(PuppetState::Holding), Some(PATIENCE_SECS))?;
         console.remark("armed: goals pinned to the measured pose");
+        live.send(Command::Puppet(PuppetCommand::CompensateLag(compensate)));
         live.send(Command::Puppet(PuppetCommand::Play));
         until(Wanted::State(PuppetState::Playing), Some(PATIENCE_SECS))?;
         until(Wanted::State(PuppetState::Holding), None)?;
@@ -182,6 +263,7 @@ impl Performance<'_> {
     /// Follows what is seen until the puppet is as wanted.
     fn until(
         &mut self,
+        live: &Live,
         snapshots: &Receiver<Arc<Snapshot>>,
         interrupt: &Interrupt,
         limit_secs: Option<f64>,
@@ -196,11 +278,14 @@ impl Performance<'_> {
                 return Err(Failure::device("the rig has stopped"));
             };
             self.tell(&seen);
+            self.pass_beats_on(live);
             let Some(puppet) = &seen.puppet else { continue };
             if let Some(log) = &mut self.log {
                 log.rows(&seen)?;
             }
-            if wanted.is_met(puppet) {
+            self.report.see(puppet);
+            let alive = self.beats.is_none() || self.beaten;
+            if wanted.is_met(puppet) && alive {
                 return Ok(());
             }
             if arming && puppet.state == PuppetState::Released {
@@ -222,6 +307,14 @@ impl Performance<'_> {
                     .unwrap_or_else(|| format!("nothing came of it in {PATIENCE_SECS} s"));
                 return Err(Failure::device(format!("puppet {}: {why}", puppet.name)));
             }
+        }
+    }
+
+    fn pass_beats_on(&mut self, live: &Live) {
+        let beats = self.beats.iter().flat_map(Receiver::try_iter);
+        if beats.count() > 0 {
+            self.beaten = true;
+            live.send(Command::Puppet(PuppetCommand::Heartbeat));
         }
     }
 
