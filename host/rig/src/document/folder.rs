@@ -110,6 +110,7 @@ fn read(folder: &Path, file: &Path, found: &mut Findings) -> Option<Show> {
         networks,
         patches: patches.map_or_else(|| Arc::from(""), |source| Arc::from(source.text())),
         puppet: text.puppet,
+        demands: text.demands,
         view: text.view,
     })
 }

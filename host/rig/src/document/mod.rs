@@ -10,6 +10,7 @@ mod clip;
 mod clip_file;
 pub mod convert;
 pub mod csv;
+mod demands;
 pub mod disk;
 pub mod edit;
 pub mod fault;
@@ -28,6 +29,7 @@ pub mod urdf;
 mod zyz;
 
 pub use clip::{ClipDoc, JointClipDoc, JointClipDocError, Keyed};
+pub use demands::{DemandError, Demands, JointDemand};
 pub use edit::{EditError, Edited, apply};
 pub use fault::{FileError, FileErrors, Findings};
 pub use figure::{FigureDoc, FigureTexts};

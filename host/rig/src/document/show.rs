@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::clip::{ClipDoc, JointClipDoc};
+use super::demands::Demands;
 use super::figure::FigureDoc;
 use crate::snapshot::ViewState;
 
@@ -27,6 +28,8 @@ pub struct Show {
     pub patches: Arc<str>,
     /// Name of the puppet profile the figure is played on.
     pub puppet: Option<String>,
+    /// What the show demands of its puppet beside the profile.
+    pub demands: Demands,
     /// From where the figure is looked at; `None` for the front view that holds all of it.
     pub view: Option<ViewState>,
 }

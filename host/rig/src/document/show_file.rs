@@ -5,6 +5,7 @@
 use std::fmt::Write as _;
 use std::path::{Component, Path};
 
+use super::demands::Demands;
 use super::fault::Findings;
 use super::fields::{self, Fields, Placed, quoted};
 use super::limits::FILES_MAX;
@@ -28,6 +29,7 @@ pub(super) struct ShowText {
     pub(super) networks: Vec<Named>,
     pub(super) patches: Option<Named>,
     pub(super) puppet: Option<String>,
+    pub(super) demands: Demands,
     pub(super) view: Option<ViewState>,
 }
 
@@ -93,6 +95,7 @@ fn read_1(mut file: Fields<'_>, found: &mut Findings) -> ShowText {
         .filter_map(|v| network_path(v, found))
         .collect();
     text.patches = file.optional("patches").and_then(|v| network_path(v, found));
+    text.demands = Demands::read(&mut file, found);
     file.finish(found);
     text
 }
@@ -229,6 +232,7 @@ pub(super) fn write(show: &Show) -> String {
     if let Some(puppet) = &show.puppet {
         line("puppet", quoted(puppet));
     }
+    show.demands.write(&mut out);
     if let Some(view) = &show.view {
         let _ = write!(
             out,

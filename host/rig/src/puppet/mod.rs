@@ -28,6 +28,7 @@ pub use pose_view::{EndHandle, JointHandle, PuppetPoseView};
 use runner::{Line, Runner};
 
 use crate::command::PuppetCommand;
+use crate::document::{DemandError, Demands};
 use crate::ports::Ports;
 use crate::snapshot::{NoteLevel, PuppetView, TransportView};
 
@@ -67,6 +68,9 @@ pub enum PuppetSetupError {
     /// The profile does not fit its servos.
     #[error(transparent)]
     Puppet(#[from] PuppetError),
+    /// The show demands what the puppet cannot do.
+    #[error(transparent)]
+    Demand(#[from] DemandError),
     /// A bus has no address.
     #[error("puppet {puppet} needs an address for its bus \"{bus}\"; give one `--port` for each of: {buses}")]
     NoAddress {
@@ -101,10 +105,11 @@ pub(crate) struct Seat {
 impl Seat {
     pub(crate) fn new(
         spec: PuppetSpec,
+        demands: &Demands,
         profiles: &Profiles,
         clock: Arc<dyn Clock>,
     ) -> Result<Self, PuppetSetupError> {
-        let profile = profiles.puppet(&spec.profile)?.clone();
+        let profile = demands.of(profiles.puppet(&spec.profile)?)?;
         let puppet = Puppet::new(&profile, profiles)?;
         let lines = puppet
             .buses()

@@ -113,7 +113,7 @@ impl Rig {
         } = options;
         let inputs = Inputs::new(inputs, &profiles)?;
         let puppet = puppet
-            .map(|spec| Seat::new(spec, &profiles, Arc::clone(&clock)))
+            .map(|spec| Seat::new(spec, &show.demands, &profiles, Arc::clone(&clock)))
             .transpose()?;
         let rehearsing = Rehearsing::of(puppet.as_ref(), &show, &profiles);
         let (wiring, remarks) = Wiring::load(&show);

@@ -9,10 +9,11 @@ mod shows;
 mod texts;
 mod urdf;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use rig::document::{self, ClipDoc, NetworkFile, Show};
+use rig::document::{self, ClipDoc, Demands, JointDemand, NetworkFile, Show};
 
 /// Where the shipped show lies.
 fn salute_folder() -> PathBuf {
@@ -43,6 +44,20 @@ fn rich() -> Show {
         twist_law: motion::TwistLaw::Zyz,
         direction_law: motion::DirectionLaw::Chord,
         ..ClipDoc::default()
+    };
+    show.demands = Demands {
+        limits: BTreeMap::from([(
+            "left elbow".to_owned(),
+            JointDemand {
+                min_rad: Some(-0.5),
+                speed_max_rad_per_s: Some(1.25),
+                ..JointDemand::default()
+            },
+        )]),
+        on_heat: Some(rig::Reaction::Release),
+        on_lost_host: Some(rig::Reaction::Hold),
+        hot_c: Some(55.5),
+        ..Demands::default()
     };
     show.view = Some(rig::ViewState {
         azimuth_rad: 0.0,

@@ -117,7 +117,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         period: Duration::from_secs_f64(1.0 / args.rate),
         heartbeat: args.heartbeat.map(Duration::from_millis),
     };
-    let guard = guard(args, &setup.profiles, &puppet, console)?;
+    let guard = guard(args, &setup, &puppet, console)?;
     let profiles = Arc::clone(&setup.profiles);
     let interrupt = Interrupt::listen();
     let (seen, snapshots) = sync_channel(WAITING);
@@ -151,13 +151,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
 }
 
 /// A guard, if the puppet is to be let go of when this program dies, and there is somebody to let go.
-fn guard(
-    args: &Args,
-    profiles: &rig::Profiles,
-    puppet: &str,
-    console: &Console,
-) -> Result<Option<Guard>, Failure> {
-    let Ok(profile) = profiles.puppet(puppet) else {
+fn guard(args: &Args, setup: &LiveSetup, puppet: &str, console: &Console) -> Result<Option<Guard>, Failure> {
+    // What is wrong with the puppet is told when it is set up.
+    let Ok(profile) = setup.profiles.puppet(puppet) else {
+        return Ok(None);
+    };
+    let Ok(profile) = setup.show.demands.of(profile) else {
         return Ok(None);
     };
     if args.ports.is_empty() || profile.policy.on_lost_host != Reaction::Release {
