@@ -144,11 +144,12 @@ impl Stage {
     pub(super) fn tick(&mut self, orders: impl IntoIterator<Item = Order>) {
         let orders: Vec<Order> = orders.into_iter().collect();
         for order in &orders {
-            self.tell(match order {
+            let what = match order {
                 Order::Play { speed, looped, .. } => format!("play, speed {speed:.2}, looped {looped}"),
                 Order::Follow(_) => "follow".to_owned(),
                 order => format!("{order:?}"),
-            });
+            };
+            self.tell(&what);
         }
         self.player.tick(self.clock.now(), &mut orders.into_iter());
         for _ in 0..LOOKS {
@@ -158,7 +159,7 @@ impl Stage {
         }
     }
 
-    fn tell(&mut self, what: String) {
+    fn tell(&mut self, what: &str) {
         let (secs, state) = (self.clock.now().as_secs_f64(), self.player.state());
         self.story.push(format!("{secs:.3} s, {state:?}: {what}"));
     }
@@ -175,7 +176,7 @@ impl Stage {
     /// The host sleeps; the shafts are watched.
     pub(super) fn stall(&mut self, secs: f64) {
         self.disturbances += 1;
-        self.tell(format!("stall {secs:.3} s"));
+        self.tell(&format!("stall {secs:.3} s"));
         let end = self.clock.now().after(Duration::from_secs_f64(secs));
         while self.clock.now() < end {
             self.clock.advance(Duration::from_millis(5));
@@ -187,7 +188,7 @@ impl Stage {
     pub(super) fn plug(&mut self, bus: usize, connected: bool) {
         self.disturbances += 1;
         let at = bus % self.buses.len();
-        self.tell(format!("bus {at} plugged {connected}"));
+        self.tell(&format!("bus {at} plugged {connected}"));
         let hung = &self.buses[at];
         hung.line.connect(connected);
         if connected {
@@ -202,7 +203,7 @@ impl Stage {
     pub(super) fn inject(&mut self, bus: usize, text: &str) {
         self.disturbances += 1;
         let at = bus % self.buses.len();
-        self.tell(format!("{text} on bus {at}"));
+        self.tell(&format!("{text} on bus {at}"));
         match Fault::parse(text) {
             Ok(fault) => self.buses[at].line.with(|bus, now_us| bus.inject(now_us, &fault)),
             Err(error) => self.wrong.push(format!("{text}: {error}")),
@@ -221,7 +222,7 @@ impl Stage {
             self.tick([]);
             if *self.player.state() == State::Released && !self.player.report().torque {
                 let unknown = self.player.report().torque_unknown;
-                self.tell(format!("closed; torque unknown: {unknown}"));
+                self.tell(&format!("closed; torque unknown: {unknown}"));
                 return;
             }
         }
