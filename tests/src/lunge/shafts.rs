@@ -188,9 +188,9 @@ mod tests {
         let mut wrong = Vec::new();
         shafts.look(&line, clock.now(), &mut wrong);
         let mut bytes = Vec::new();
-        dynamixel2::sync_write(&mut bytes, 64, [(1, [1_u8])].into_iter()).expect("short");
+        dynamixel2::sync_write(&mut bytes, 64, [(1, [1_u8])]).expect("short");
         for goal in goals {
-            dynamixel2::sync_write(&mut bytes, 116, [(1, goal.to_le_bytes())].into_iter()).expect("short");
+            dynamixel2::sync_write(&mut bytes, 116, [(1, goal.to_le_bytes())]).expect("short");
         }
         line.write(&bytes).expect("it is there");
         for _ in 0..until_ms / 5 {

@@ -59,7 +59,7 @@ impl Command {
             Self::Servo(args) => servo::run(args, console),
             Self::Sim(args) => sim::run(args, console),
             Self::Bench(args) => bench::run(args, console),
-            Self::Guard => guard::run(),
+            Self::Guard => Ok(guard::run()),
         }
     }
 }

@@ -83,6 +83,7 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         inputs: Vec::new(),
         ports: args.ports.clone(),
         period: PERIOD,
+        heartbeat: None,
     };
     let interrupt = Interrupt::listen();
     let live = setup.start(|_| ())?;
