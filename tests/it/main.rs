@@ -7,6 +7,7 @@ mod golden;
 mod measures;
 mod motion_capture;
 mod properties;
+mod puppet_pictures;
 mod rehearsal;
 mod replay;
 mod source;

@@ -1,7 +1,8 @@
 //! The studio's pictures, made from a whole rig on the bench and drawn by whatever graphics adapter is there.
 //!
-//! They lie in the target's `tmp` folder for people to look at; the two in `docs/pictures` are from here. What can
-//! be said of a picture without looking is said here. Where no adapter exists, the tests say so and pass.
+//! They lie in the target's `tmp` folder for people to look at; `studio.png` and `studio-faulted.png` in
+//! `docs/pictures` are from here. What can be said of a picture without looking is said here. Where no adapter
+//! exists, the tests say so and pass.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,7 +21,7 @@ use ui::render::theme::{self, Rgb};
 use ui::studio::{Studio, window_rect};
 
 /// Windows the studio must look right in: the smallest, a laptop's, a desk's.
-const SIZES: [(u32, u32); 3] = [(1280, 720), (1440, 900), (1920, 1080)];
+pub(crate) const SIZES: [(u32, u32); 3] = [(1280, 720), (1440, 900), (1920, 1080)];
 
 /// The left forearm and hand, by their places in the shipped figure.
 const FOREARM: u16 = 6;
@@ -31,7 +32,7 @@ const SALUTE_SECS: f64 = 1.95;
 const SPREAD_SECS: f64 = 3.4;
 
 /// The shipped show with its simulated devices, all of which answer.
-fn world() -> World {
+pub(crate) fn world() -> World {
     let show = rig::document::from_texts(&rig::shipped::salute()).expect("the shipped show is whole");
     let equipment = Equipment {
         puppet: show.puppet.clone(),
@@ -101,12 +102,12 @@ fn posing() -> World {
     world
 }
 
-fn state(seen: &Snapshot) -> Option<PuppetState> {
+pub(crate) fn state(seen: &Snapshot) -> Option<PuppetState> {
     seen.puppet.as_ref().map(|puppet| puppet.state)
 }
 
 /// The puppet performs, arms spread, while a hand turns the view a little.
-fn playing() -> World {
+pub(crate) fn playing() -> World {
     let mut world = world();
     world.step([Command::Puppet(PuppetCommand::Arm)]);
     let holding = |seen: &Snapshot| state(seen) == Some(PuppetState::Holding);
@@ -145,25 +146,25 @@ fn faulted() -> World {
 }
 
 /// Says aloud that there is nothing to draw with.
-fn no_adapter() -> bool {
+pub(crate) fn no_adapter() -> bool {
     Headless::start()
         .inspect_err(|error| eprintln!("SKIPPED: {error}"))
         .is_err()
 }
 
-fn draw(seen: &Snapshot, size: (u32, u32)) -> Picture {
+pub(crate) fn draw(seen: &Snapshot, size: (u32, u32)) -> Picture {
     ui::still::draw(&mut Studio::new(), seen, size, 1.0).expect("the adapter that started also draws")
 }
 
 /// Leaves a picture where a person can look at it.
-fn keep(picture: &Picture, name: &str) {
+pub(crate) fn keep(picture: &Picture, name: &str) {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("rig-{name}-{}.png", picture.width));
     let file = std::fs::File::create(&path).expect("the folder is the tests' own");
     write_png(picture, file).expect("a picture is a PNG");
 }
 
 /// How many pixels are nearly `colour`.
-fn count(picture: &Picture, colour: Rgb) -> usize {
+pub(crate) fn count(picture: &Picture, colour: Rgb) -> usize {
     let near = |p: &[u8]| {
         let channels = [(p[0], colour.0), (p[1], colour.1), (p[2], colour.2)];
         channels.iter().all(|(a, b)| a.abs_diff(*b) < 24)

@@ -13,7 +13,7 @@ use crate::snapshot::ViewState;
 /// reaches about 0.7, and limbs must have room to stretch.
 const FIGURE_SHARE: f64 = 0.55;
 /// Azimuth and elevation from which a puppet without a figure is looked at first.
-const BESIDE_RAD: [f64; 2] = [0.9, 0.25];
+const BESIDE_RAD: [f64; 2] = [1.2, 0.25];
 /// Smallest and largest scale, picture half-heights per metre: from a mountain to a grain of sand.
 const SCALE: std::ops::RangeInclusive<f64> = 1e-4..=1e4;
 

@@ -11,6 +11,8 @@ use crate::render::theme;
 
 /// How near the pointer must come to an end to take it, points.
 const REACH: f32 = 12.0;
+/// A picture lower than this shows where to take hold only while a pointer is over it, points.
+const SMALL: f32 = 260.0;
 
 /// What a hand holds.
 #[derive(Default)]
@@ -67,7 +69,9 @@ impl Hold {
             None => hover,
         };
         let painter = ui.painter().with_clip_rect(area);
-        for end in &pose.ends {
+        // A small picture would be full of them.
+        let small = area.height() < SMALL && !response.hovered() && self.held.is_none();
+        for end in pose.ends.iter().filter(|_| !small) {
             painter.circle_stroke(on_screen(camera, area, end.at), 5.0, style::hair(theme::DIM));
         }
         let Some(end) = chosen else { return };

@@ -4,7 +4,7 @@
 //! over each other, so the highest is seen and the tooltip lists them all.
 
 use egui::accesskit::Role;
-use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
+use egui::{Rect, Sense, Ui, pos2, vec2};
 use rig::{Snapshot, StretchKind, StretchView};
 
 use super::button;
@@ -56,22 +56,14 @@ pub fn show(ui: &Ui, area: Rect, line: &Timeline, seen: &Snapshot) {
     }
     if let Some(worst) = view.stretches.iter().max_by(|a, b| a.factor.total_cmp(&b.factor)) {
         let bar = bar(area, line, worst);
-        let text = (short(worst), style::words(theme::SIZE_SMALL));
-        let right = bar.right() + 4.0;
-        let room = area.right() - right;
-        let (at, anchor) = if room > 130.0 {
-            (pos2(right, area.top()), Align2::LEFT_TOP)
-        } else {
-            (pos2(bar.left() - 4.0, area.top()), Align2::RIGHT_TOP)
-        };
-        style::line(
-            &painter,
-            at,
-            anchor,
-            (text.0.as_str(), text.1),
-            theme::TOO_MUCH,
-            200.0,
-        );
+        let font = style::words(theme::SIZE_SMALL);
+        let words = style::layout(&painter, (&short(worst), font), theme::TOO_MUCH, area.width());
+        // Under its bar, on the ground's own colour: bars stand close, and the curve goes through.
+        let left = bar.left().min(area.right() - words.size().x).max(area.left());
+        let at = pos2(left, area.top() + HEIGHT[1] + 2.0).round();
+        let plate = Rect::from_min_size(at, words.size()).expand2(vec2(theme::STEP, 0.0));
+        painter.rect_filled(plate, style::round(), ink(theme::GROUND));
+        painter.galley(at, words, ink(theme::TOO_MUCH));
     }
     tell(ui, area, line, seen);
 }
