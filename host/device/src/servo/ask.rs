@@ -302,6 +302,9 @@ impl Slot {
         self.reading = Some(reading);
         self.presence = Presence::Present;
         self.misses = 0;
+        if std::mem::take(&mut self.let_go) {
+            return Some(BusEvent::Restarted { member });
+        }
         if was == Presence::Absent {
             return Some(BusEvent::Returned { member });
         }

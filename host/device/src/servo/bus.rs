@@ -281,6 +281,7 @@ impl Bus {
         self.mode = Mode::Loose;
         for slot in &mut self.slots {
             slot.limiter = None;
+            slot.let_go = false;
             slot.reading = None;
             slot.pin = None;
             slot.presence = Presence::Present;

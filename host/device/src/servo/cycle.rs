@@ -149,6 +149,9 @@ impl Bus {
         self.settle();
         self.cycle.commanded = now;
         self.counters.cycles += 1;
+        for slot in &mut self.slots {
+            slot.let_go_unseen(now);
+        }
         self.limit(goal, since.as_secs_f64(), note);
         self.line.packet();
         let first = self.begin_cycle();

@@ -35,6 +35,7 @@ mod slot;
 mod table;
 mod tempo;
 mod turns;
+mod unseen;
 mod writes;
 
 pub use arming::{Refusal, Why};

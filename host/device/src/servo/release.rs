@@ -23,6 +23,7 @@ impl Bus {
         self.line.abandon();
         for slot in &mut self.slots {
             slot.limiter = None;
+            slot.let_go = false;
             slot.pin = None;
         }
         self.cycle.restart(now);

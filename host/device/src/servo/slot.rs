@@ -30,6 +30,8 @@ pub(super) struct Slot {
     /// Answers in a row that were taken for late.
     pub(super) late_in_a_row: u8,
     pub(super) limiter: Option<Limiter>,
+    /// Its goal was taken from it because it may have started over; see `unseen`.
+    pub(super) let_go: bool,
     /// The measured position that the goal is pinned to while arming.
     pub(super) pin: Option<Reading>,
     /// The goal that the servo holds after arming: where the limiter starts.
@@ -54,6 +56,7 @@ impl Slot {
             freshness: Freshness::default(),
             late_in_a_row: 0,
             limiter: None,
+            let_go: false,
             pin: None,
             held_rad: None,
             accepts: None,

@@ -122,6 +122,7 @@ impl Bus {
         self.drain(now)?;
         for slot in &mut self.slots {
             slot.limiter = None;
+            slot.let_go = false;
             slot.pin = None;
             slot.held_rad = None;
         }
