@@ -145,7 +145,7 @@ fn contradictions_in_puppets_are_refused_at_their_place() {
             "[[group.joint]]",
         ),
         (
-            "heartbeat_ms = 500",
+            "heartbeat_ms = 200",
             "heartbeat_ms = 5000",
             "heartbeat_ms must be 20 to 2540, found 5000",
             "heartbeat_ms",

@@ -9,7 +9,7 @@ use device::codec::wacom_iv::WacomIv;
 use device::{InputEvent, Instant, Transport};
 use device_profiles::Profiles;
 use dialrig_tests::measure::interpolant::Chance;
-use player::Order;
+use player::{Order, Trouble};
 use std::time::Duration;
 
 /// Operations of the session below are a few hundred; each of the first ones fails in turn, then every so many.
@@ -117,16 +117,26 @@ fn a_stop_at_every_tick_ends_with_torque_off() {
 }
 
 #[test]
-fn a_blocked_joint_is_noticed_and_let_go() {
+fn a_blocked_joint_is_noticed_and_its_goal_retreats() {
     let mut rehearsal = Rehearsal::new(0.0, 0);
     rehearsal.tick([Order::Arm]);
     assert!(rehearsal.run_until("holding", 2.0));
     rehearsal.inject(0, "servo 1 stuck");
     let far = clip(0.5, &[vec![1.2; 5], vec![1.2; 5]]);
     rehearsal.tick([play(&far)]);
-    assert!(rehearsal.run_until("faulted", 8.0));
-    rehearsal.run(3.0);
-    assert_eq!(rehearsal.with_torque(), [""; 0]);
+    let noticed = |rehearsal: &mut Rehearsal| rehearsal.tick([]).backing_off.map(|(trouble, _)| trouble);
+    let trouble = (0..1000).find_map(|_| noticed(&mut rehearsal));
+    assert_eq!(trouble, Some(Trouble::Overload));
+    rehearsal.run(1.0);
+    let joint = rehearsal.tick([]).joints[0];
+    let (goal, measured) = (
+        joint.goal_rad.expect("armed"),
+        joint.measured_rad.expect("it answers"),
+    );
+    assert!(
+        (goal - measured).abs() < 0.3,
+        "{goal} against {measured}: it goes on pushing"
+    );
 }
 
 /// Bytes of every kind: random, all one value, headers without packets, packets cut short.

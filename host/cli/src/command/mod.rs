@@ -38,7 +38,10 @@ pub(crate) enum Command {
     Sim(sim::Args),
     Bench(bench::Args),
     /// Waits for the program that started it to die, then lets go of its puppet
-    #[command(hide = true)]
+    #[command(
+        hide = true,
+        after_help = "Example: `dialrig play` starts it; nobody else has to"
+    )]
     Guard,
 }
 
