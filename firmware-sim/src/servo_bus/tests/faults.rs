@@ -36,7 +36,7 @@ fn faults_read_back_as_they_print() {
         ("", 1),
         ("explode", 1),
         ("servo x stuck", 7),
-        ("servo 253 stuck", 7),
+        ("servo 254 stuck", 7),
         ("servo 3", 8),
         ("drop 1", 6),
         ("drop 101%", 6),
