@@ -236,6 +236,10 @@ impl ServoBus {
                 break;
             };
             self.reached_ns = self.reached_ns.max(at_ns);
+            if self.ohms > 0.0 {
+                // None goes ahead of those it shares the supply with, or it would matter how calls are cut up.
+                self.advance_servos(at_ns);
+            }
             if self.next_fault_ns().is_some_and(|due| due <= at_ns) {
                 self.change_faults(at_ns);
             } else if self.chain.next_ns().is_some_and(|due| due <= at_ns) {
