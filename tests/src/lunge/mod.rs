@@ -61,6 +61,16 @@ mod tests {
     /// So many in the suite; `measure lunge` takes many more.
     const RUNS: u64 = 60;
 
+    /// STS servos back from a failure of their power took torque from the next goal, 20 counts away.
+    #[test]
+    fn a_servo_that_started_over_unseen_is_sent_no_goal() {
+        let profiles = Profiles::builtin();
+        for seed in [20_181, 95_886] {
+            let outcome = run(seed, &profiles).expect("shipped puppets fit their servos");
+            assert!(outcome.wrong.is_empty(), "{seed}: {}", outcome.wrong.join("\n"));
+        }
+    }
+
     #[test]
     fn nothing_lunges() {
         let profiles = Profiles::builtin();
