@@ -52,7 +52,8 @@ fn a_walk_plays_on_the_marionette() {
         .expect("it arms");
     world.step([Command::Puppet(PuppetCommand::Play)]);
     world
-        .run_until("playing", 2.0, state(PuppetState::Playing))
+        // Its 2,752 frames are judged before anything moves.
+        .run_until("playing", 20.0, state(PuppetState::Playing))
         .expect("it plays");
     let mut fastest: BTreeMap<String, f64> = BTreeMap::new();
     let mut furthest_rad: f64 = 0.0;
