@@ -3,7 +3,7 @@
 //!
 //! Everybody does the same: goal positions to all, present positions of all, each value looked at. Each has a
 //! simulated bus of its own behind a pseudo-terminal, as any program would see an adapter without latency; a thread
-//! that is awake when answers are due hands them over when the wire has carried them ([`far`]).
+//! that is awake when answers are due hands them over when the wire has carried them (module `far`).
 //! Ours is the player's bus as it is, limits, watchdog, health and all, told to read positions alone.
 //! Source of the limit: the servo reference, 7.1.
 
