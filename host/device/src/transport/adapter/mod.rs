@@ -2,7 +2,7 @@
 //! answer before it hands them over.
 //!
 //! Sources: Linux `ftdi_sio` (sysfs attribute `latency_timer`, milliseconds; it reads 1 as well while the port has
-//! `ASYNC_LOW_LATENCY` set), and FTDI's vendor requests for systems and users that may not write there ([`ftdi`]).
+//! `ASYNC_LOW_LATENCY` set), and FTDI's vendor requests for systems and users that may not write there (`ftdi`).
 //! Apart from the transports because a program that only moves bytes needs none of it.
 
 mod ftdi;
