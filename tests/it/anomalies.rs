@@ -7,7 +7,7 @@ use device::codec::Codec;
 use device::codec::sgi_dial_box::SgiDialBox;
 use device::codec::wacom_iv::WacomIv;
 use device::{InputEvent, Instant, Transport};
-use device_profiles::Profiles;
+use device_profiles::{Profiles, Reaction};
 use dialrig_tests::measure::interpolant::Chance;
 use player::{Order, Trouble};
 use std::time::Duration;
@@ -114,6 +114,19 @@ fn a_stop_at_every_tick_ends_with_torque_off() {
             assert_eq!(rehearsal.wrong(), [""; 0], "{order:?} after {ticks} ticks");
         }
     }
+}
+
+#[test]
+fn a_blocked_joint_is_noticed_and_let_go() {
+    let mut rehearsal = Rehearsal::with_policy(0.0, 0, |policy| policy.on_overload = Reaction::Release);
+    rehearsal.tick([Order::Arm]);
+    assert!(rehearsal.run_until("holding", 2.0));
+    rehearsal.inject(0, "servo 1 stuck");
+    let far = clip(0.5, &[vec![1.2; 5], vec![1.2; 5]]);
+    rehearsal.tick([play(&far)]);
+    assert!(rehearsal.run_until("faulted", 8.0));
+    rehearsal.run(3.0);
+    assert_eq!(rehearsal.with_torque(), [""; 0]);
 }
 
 #[test]

@@ -103,8 +103,7 @@ pub struct JointReport {
 
 /// One tick.
 #[derive(Debug, Clone, Default)]
-// Facts that have nothing to do with each other, each with its own sentence.
-#[allow(clippy::struct_excessive_bools)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub struct Report {
     /// When.
     pub at: Instant,

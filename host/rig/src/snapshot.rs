@@ -324,8 +324,7 @@ pub struct DeskKeyView {
 
 /// The servo puppet.
 #[derive(Clone, Debug, Default, PartialEq)]
-// Facts that have nothing to do with each other, each with its own sentence.
-#[allow(clippy::struct_excessive_bools)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub struct PuppetView {
     /// The profile's name.
     pub name: String,

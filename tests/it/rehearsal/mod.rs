@@ -12,7 +12,7 @@ use tap::{Bounds, Seen, Tap, lock};
 
 use device::servo::Member;
 use device::{Clock, Instant, Transport, VirtualClock};
-use device_profiles::{Profiles, PuppetProfile};
+use device_profiles::{Policy, Profiles, PuppetProfile};
 use dialrig_tests::simulated::Line;
 use firmware_sim::servo_bus::{BusOptions, Sag, Unit};
 use firmware_sim::{Fault, ServoBus};
@@ -73,8 +73,14 @@ fn profile(profiles: &Profiles) -> PuppetProfile {
 impl Rehearsal {
     /// Everything standing at `start_rad` (from each joint's zero), torque off, nothing sent yet.
     pub(crate) fn new(start_rad: f64, seed: u64) -> Self {
+        Self::with_policy(start_rad, seed, |_| {})
+    }
+
+    /// The same with another policy than the shipped puppet's.
+    pub(crate) fn with_policy(start_rad: f64, seed: u64, change: impl FnOnce(&mut Policy)) -> Self {
         let profiles = Profiles::builtin();
-        let profile = profile(&profiles);
+        let mut profile = profile(&profiles);
+        change(&mut profile.policy);
         let puppet = Puppet::new(&profile, &profiles).expect("the marionette fits its servos");
         let clock = VirtualClock::new();
         let buses: Vec<Hung> = puppet

@@ -148,7 +148,7 @@ fn show(finding: &Finding, console: &Console) -> Result<(), Failure> {
 }
 
 // Consumed, so that it can be handed to `map_err` by its name.
-#[expect(clippy::needless_pass_by_value)]
+#[expect(clippy::needless_pass_by_value, reason = "what `map_err` hands over")]
 fn failed(error: DoctorError) -> Failure {
     if error.is_of_device() {
         Failure::device(error.to_string())

@@ -143,7 +143,7 @@ fn id() -> clap::builder::RangedI64ValueParser<u8> {
 
 /// A line or servo that does not do what it should is a device's fault; nothing here has given it torque.
 // Consumed, so that it can be handed to `map_err` by its name.
-#[expect(clippy::needless_pass_by_value)]
+#[expect(clippy::needless_pass_by_value, reason = "what `map_err` hands over")]
 fn failed(error: ServoLineError) -> Failure {
     if error.is_of_device() {
         Failure::device(error.to_string())
