@@ -9,9 +9,10 @@ mod command;
 mod dials;
 
 use crate::firmware::Firmware;
-use crate::hands::{Hands, Schedule, Touch};
+use crate::hands::{Hands, Schedule, Touch, noise};
 use crate::line::Line;
 use crate::script::Script;
+use crate::uart::Parity;
 use command::{Command, Parser};
 use device_profiles::KnobsProfile;
 use dials::{DIALS, Dials};
@@ -340,7 +341,11 @@ impl SgiDialBox {
                 self.lose_power(at_ns);
                 true
             }
-            Touch::Pen(_) | Touch::Puck(_) | Touch::Away => false,
+            Touch::Noise(bytes) => {
+                self.line.device_sends(at_ns, &noise(bytes));
+                true
+            }
+            Touch::Axis { .. } | Touch::Pen(_) | Touch::Puck(_) | Touch::Away | Touch::Lift(_) => false,
         }
     }
 }
@@ -368,6 +373,11 @@ impl Firmware for SgiDialBox {
     fn set_line_baud(&mut self, now_us: u64, baud: u32) {
         self.catch_up(now_us);
         self.line.set_host_baud(baud);
+    }
+
+    fn set_line_parity(&mut self, now_us: u64, parity: Parity) {
+        self.catch_up(now_us);
+        self.line.set_host_parity(parity);
     }
 
     fn next_byte_us(&self) -> Option<u64> {

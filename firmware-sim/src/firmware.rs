@@ -3,6 +3,8 @@
 //! Apart from the devices so that whoever holds the other end (a test, a pseudo terminal, a socket) needs
 //! to know nothing else.
 
+use crate::uart::Parity;
+
 /// A device as the host's port sees it: bytes go in, bytes come out when the wire would have carried them.
 ///
 /// Times are microseconds of the host's clock since the simulation began and must not run backwards; an
@@ -17,6 +19,12 @@ pub trait Firmware {
 
     /// The host sets its port to `baud`, in bits per second. At the wrong speed both sides read garbage.
     fn set_line_baud(&mut self, now_us: u64, baud: u32);
+
+    /// The host sets its port's parity. A device whose simulation knows no parity takes any.
+    fn set_line_parity(&mut self, _now_us: u64, _parity: Parity) {}
+
+    /// The host opens its port, which raises DTR: boards that restart with it do.
+    fn port_opened(&mut self, _now_us: u64) {}
 
     /// When the next byte already on its way reaches the host; nothing if none is under way yet.
     /// A hint for sleeping: later calls may bring an earlier byte.

@@ -24,14 +24,36 @@ pub enum Touch {
         /// True: pressed.
         down: bool,
     },
+    /// Moves fader, knob, lever or other control with a place of its own to `to`, evenly over `over_us` (0: at once).
+    Axis {
+        /// Number as on the device.
+        control: u8,
+        /// Share of its travel, 0 to 1; −1 to 1 where it springs back to the middle.
+        to: f64,
+        /// Duration in microseconds.
+        over_us: u64,
+    },
     /// Pulls the plug and puts it back.
     PowerCycle,
+    /// Nobody's doing: so many bytes of nonsense reach the host, as from a loose plug.
+    Noise(u16),
     /// Holds the pen so.
     Pen(Pen),
     /// Holds the puck so.
     Puck(Puck),
-    /// Lifts pen or puck out of reach.
+    /// Lifts every tool out of reach.
     Away,
+    /// Lifts this tool out of reach; on a tablet that sees one tool at a time, whichever is there.
+    Lift(Held),
+}
+
+/// What a hand may hold over a tablet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Held {
+    /// A pen, whichever end down.
+    Pen,
+    /// A puck.
+    Puck,
 }
 
 /// How far a dial is turned.
@@ -74,6 +96,8 @@ pub struct Pen {
     pub eraser: bool,
     /// Lean towards +x and +y in degrees, −64 to 63.
     pub tilt_deg: [i8; 2],
+    /// Which pen of several, for tablets that tell them apart; 0: the one that came with it.
+    pub serial: u32,
 }
 
 /// A puck on the surface.
@@ -87,6 +111,8 @@ pub struct Puck {
     pub buttons: u8,
     /// Wheel clicks since the last report, positive away from the hand.
     pub wheel: i32,
+    /// Which puck of several, for tablets that tell them apart; 0: the one that came with it.
+    pub serial: u32,
 }
 
 /// A device that hands can touch.
@@ -96,6 +122,14 @@ pub trait Hands {
 
     /// When the host first switched reporting on; scripts count from there.
     fn reporting_since_us(&self) -> Option<u64>;
+}
+
+/// So many bytes of nonsense, the same for the same number: what a simulation says twice it says the same way.
+pub(crate) fn noise(bytes: u16) -> Vec<u8> {
+    let mut chance = fastrand::Rng::with_seed(u64::from(bytes));
+    std::iter::repeat_with(|| chance.u8(..))
+        .take(usize::from(bytes))
+        .collect()
 }
 
 /// Touches waiting for their time, counted from the moment reporting began.

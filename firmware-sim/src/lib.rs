@@ -22,4 +22,5 @@ pub use dial_box::SgiDialBox;
 pub use firmware::Firmware;
 pub use script::Script;
 pub use servo_bus::{Fault, ServoBus};
+pub use uart::Parity;
 pub use wacom_iv::WacomIv;

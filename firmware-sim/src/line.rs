@@ -2,7 +2,7 @@
 //!
 //! Used by the RS-232 devices; the servo bus has its own half-duplex wire.
 
-use crate::uart::{FRAME_BITS, hear};
+use crate::uart::{Format, Parity, hear};
 use std::collections::VecDeque;
 
 /// Nanoseconds in a second.
@@ -11,9 +11,9 @@ const SECOND_NS: u64 = 1_000_000_000;
 /// Bytes under way with the moment each has wholly arrived, in nanoseconds of host time.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
-    device_baud: u32,
-    host_baud: u32,
-    byte_ns: u64,
+    device: Format,
+    host: Format,
+    drift_ppm: i32,
     host_free_ns: u64,
     device_free_ns: u64,
     to_device: VecDeque<(u64, u8)>,
@@ -23,11 +23,19 @@ pub(crate) struct Line {
 impl Line {
     /// A quiet line whose device runs at `baud` by a clock that is `drift_ppm` fast.
     pub(crate) fn new(baud: u32, drift_ppm: i32) -> Self {
-        let byte_ns = FRAME_BITS * SECOND_NS / u64::from(baud.max(1));
+        Self::with_parity(baud, Parity::None, drift_ppm)
+    }
+
+    /// The same with a parity bit. The host's end begins as the device's.
+    pub(crate) fn with_parity(baud: u32, parity: Parity, drift_ppm: i32) -> Self {
+        let format = Format {
+            baud: baud.max(1),
+            parity,
+        };
         Self {
-            device_baud: baud,
-            host_baud: baud,
-            byte_ns: shortened(byte_ns, drift_ppm),
+            device: format,
+            host: format,
+            drift_ppm,
             host_free_ns: 0,
             device_free_ns: 0,
             to_device: VecDeque::new(),
@@ -36,18 +44,28 @@ impl Line {
     }
 
     pub(crate) fn set_host_baud(&mut self, baud: u32) {
-        self.host_baud = baud.max(1);
+        self.host.baud = baud.max(1);
+    }
+
+    pub(crate) fn set_host_parity(&mut self, parity: Parity) {
+        self.host.parity = parity;
+    }
+
+    /// How long a byte of the device's takes.
+    pub(crate) fn device_byte_ns(&self) -> u64 {
+        let byte_ns = self.device.frame_bits() * SECOND_NS / u64::from(self.device.baud);
+        shortened(byte_ns, self.drift_ppm)
     }
 
     /// The host writes `bytes`, one behind the other after whatever it wrote before.
     pub(crate) fn host_sends(&mut self, now_ns: u64, bytes: &[u8]) {
-        let byte_ns = FRAME_BITS * SECOND_NS / u64::from(self.host_baud);
+        let byte_ns = self.host.frame_bits() * SECOND_NS / u64::from(self.host.baud);
         for &byte in bytes {
             self.host_free_ns = self.host_free_ns.max(now_ns) + byte_ns;
             let (at, to_device) = (self.host_free_ns, &mut self.to_device);
-            hear(byte, self.host_baud, self.device_baud, |heard| {
-                // A device's UART drops a frame without a stop bit.
-                if heard.framed {
+            hear(byte, self.host, self.device, |heard| {
+                // A device's UART drops a frame without a stop bit or of the wrong parity.
+                if heard.framed && heard.parity_right {
                     to_device.push_back((at, heard.byte));
                 }
             });
@@ -66,11 +84,13 @@ impl Line {
 
     /// The device writes `bytes` at `at_ns` or when its line is free.
     pub(crate) fn device_sends(&mut self, at_ns: u64, bytes: &[u8]) {
+        let byte_ns = self.device_byte_ns();
         for &byte in bytes {
-            self.device_free_ns = self.device_free_ns.max(at_ns) + self.byte_ns;
+            self.device_free_ns = self.device_free_ns.max(at_ns) + byte_ns;
             let (at, to_host) = (self.device_free_ns, &mut self.to_host);
-            hear(byte, self.device_baud, self.host_baud, |heard| {
-                // A tty without IGNPAR and PARMRK reads a frame without a stop bit as zero (termios(3)).
+            hear(byte, self.device, self.host, |heard| {
+                // A tty without IGNPAR, PARMRK and INPCK reads a frame without a stop bit as zero and looks at no
+                // parity (termios(3)).
                 to_host.push_back((at, if heard.framed { heard.byte } else { 0 }));
             });
         }

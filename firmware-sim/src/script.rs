@@ -1,4 +1,4 @@
-//! Hands from a text: what to do to a dial box or a tablet, and when.
+//! Hands from a text: what to do to a box of controls or a tablet, and when.
 //!
 //! Source: `docs/cli.md`, "Scripts". One action a line, `#` begins a comment, times in seconds since the
 //! host first switched reporting on.
@@ -10,10 +10,26 @@ use crate::hands::Touch;
 /// The device a script is for; an action the device has no control for is an error in the script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Device {
-    /// Dials and buttons.
-    DialBox,
+    /// Dials, buttons, and controls with a place of their own, so many of each.
+    Controls {
+        /// Controls that `dial` turns.
+        dials: u8,
+        /// Controls that `button` presses.
+        buttons: u8,
+        /// Controls that `axis` moves.
+        axes: u8,
+    },
     /// Pen and puck.
     Tablet,
+}
+
+impl Device {
+    /// The SGI box: 8 dials, 32 buttons.
+    pub const DIAL_BOX: Self = Self::Controls {
+        dials: 8,
+        buttons: 32,
+        axes: 0,
+    };
 }
 
 /// One line of a script.

@@ -9,9 +9,10 @@ mod command;
 mod packet;
 
 use crate::firmware::Firmware;
-use crate::hands::{Hands, Schedule, Touch};
+use crate::hands::{Hands, Schedule, Touch, noise};
 use crate::line::{Line, shortened};
 use crate::script::Script;
+use crate::uart::Parity;
 use command::{Command, Parser};
 use device_profiles::TabletProfile;
 use packet::{Pointer, Scale};
@@ -250,13 +251,17 @@ impl WacomIv {
         let next = match touch {
             Touch::Pen(pen) => Some(Pointer::pen(pen, self.model.eraser_bit)),
             Touch::Puck(puck) => Some(Pointer::puck(puck, self.model.wheel)),
-            Touch::Away => None,
+            Touch::Away | Touch::Lift(_) => None,
             Touch::PowerCycle => {
                 self.line.device_stops(self.reached_ns);
                 self.reset(self.reached_ns + RESET_BAUD_NS, false);
                 return true;
             }
-            Touch::Dial { .. } | Touch::Button { .. } => return false,
+            Touch::Noise(bytes) => {
+                self.line.device_sends(self.reached_ns, &noise(*bytes));
+                return true;
+            }
+            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } => return false,
         };
         let before = self.pointer;
         self.pointer = next;
@@ -300,6 +305,11 @@ impl Firmware for WacomIv {
     fn set_line_baud(&mut self, now_us: u64, baud: u32) {
         self.catch_up(now_us);
         self.line.set_host_baud(baud);
+    }
+
+    fn set_line_parity(&mut self, now_us: u64, parity: Parity) {
+        self.catch_up(now_us);
+        self.line.set_host_parity(parity);
     }
 
     fn next_byte_us(&self) -> Option<u64> {

@@ -1,7 +1,9 @@
 //! One line of a script: words with their columns, then one function per kind of action.
 
 use super::{Action, Device};
-use crate::hands::{Pen, Puck, Touch, Turn};
+use crate::hands::{Held, Pen, Puck, Touch, Turn};
+use std::fmt::Display;
+use std::str::FromStr;
 
 /// Longest time a script may name: a day, in seconds.
 const SECONDS_MAX: f64 = 86_400.0;
@@ -24,25 +26,41 @@ pub(super) fn parse(device: Device, text: &str) -> Result<Option<Action>, LineFa
     let column = words.column();
     let verb = words.any("an action")?;
     let touch = match (device, verb) {
-        (Device::DialBox, "dial") => dial(&mut words)?,
-        (Device::DialBox, "button") => button(&mut words)?,
-        (Device::DialBox, "power-cycle") => Touch::PowerCycle,
+        (_, "power-cycle") => Touch::PowerCycle,
+        (_, "noise") => Touch::Noise(words.whole("a number of bytes", 1u16, 1000)?),
+        (Device::Controls { dials, .. }, "dial") if dials > 0 => dial(&mut words, dials - 1)?,
+        (Device::Controls { buttons, .. }, "button") if buttons > 0 => button(&mut words, buttons - 1)?,
+        (Device::Controls { axes, .. }, "axis") if axes > 0 => axis(&mut words, axes - 1)?,
         (Device::Tablet, "pen") => pen(&mut words)?,
         (Device::Tablet, "puck") => puck(&mut words)?,
-        (Device::DialBox, _) => {
+        _ => {
+            let known = actions(device).join(", ");
             return Err(fault(
                 column,
-                format!("expected dial, button or power-cycle, found `{verb}`"),
+                format!("expected {known} or noise, found `{verb}`"),
             ));
         }
-        (Device::Tablet, _) => return Err(fault(column, format!("expected pen or puck, found `{verb}`"))),
     };
     words.end()?;
     Ok(Some(Action { at_us, touch }))
 }
 
-fn dial(words: &mut Words<'_>) -> Result<Touch, LineFault> {
-    let control = words.whole("a dial", 0, 7)?;
+/// What can be done to `device`, but for noise.
+fn actions(device: Device) -> Vec<&'static str> {
+    let mut known = match device {
+        Device::Tablet => vec!["pen", "puck"],
+        Device::Controls { dials, buttons, axes } => [(dials, "dial"), (buttons, "button"), (axes, "axis")]
+            .into_iter()
+            .filter(|&(count, _)| count > 0)
+            .map(|(_, verb)| verb)
+            .collect(),
+    };
+    known.push("power-cycle");
+    known
+}
+
+fn dial(words: &mut Words<'_>, last: u8) -> Result<Touch, LineFault> {
+    let control = words.whole("a dial", 0, last)?;
     let column = words.column();
     let amount = words.any("how far: counts, degrees (`deg`) or turns (`turns`)")?;
     let by = turn(amount).ok_or_else(|| {
@@ -53,12 +71,23 @@ fn dial(words: &mut Words<'_>) -> Result<Touch, LineFault> {
             ),
         )
     })?;
-    let over_us = if words.take("over") {
-        micros(words.number("a duration in seconds", 0.0, SECONDS_MAX)?)
-    } else {
-        0
-    };
+    let over_us = duration(words)?;
     Ok(Touch::Dial { control, by, over_us })
+}
+
+fn axis(words: &mut Words<'_>, last: u8) -> Result<Touch, LineFault> {
+    let control = words.whole("an axis", 0, last)?;
+    let to = words.number("a share of its travel", -1.0, 1.0)?;
+    let over_us = duration(words)?;
+    Ok(Touch::Axis { control, to, over_us })
+}
+
+fn duration(words: &mut Words<'_>) -> Result<u64, LineFault> {
+    if words.take("over") {
+        Ok(micros(words.number("a duration in seconds", 0.0, SECONDS_MAX)?))
+    } else {
+        Ok(0)
+    }
 }
 
 fn turn(text: &str) -> Option<Turn> {
@@ -75,8 +104,8 @@ fn turn(text: &str) -> Option<Turn> {
     }
 }
 
-fn button(words: &mut Words<'_>) -> Result<Touch, LineFault> {
-    let control = words.whole("a button", 0, 31)?;
+fn button(words: &mut Words<'_>, last: u8) -> Result<Touch, LineFault> {
+    let control = words.whole("a button", 0, last)?;
     let column = words.column();
     match words.any("down or up")? {
         "down" => Ok(Touch::Button { control, down: true }),
@@ -87,7 +116,7 @@ fn button(words: &mut Words<'_>) -> Result<Touch, LineFault> {
 
 fn pen(words: &mut Words<'_>) -> Result<Touch, LineFault> {
     if words.take("away") {
-        return Ok(Touch::Away);
+        return Ok(Touch::Lift(Held::Pen));
     }
     let mut pen = Pen {
         x: place(words, "x")?,
@@ -103,10 +132,11 @@ fn pen(words: &mut Words<'_>) -> Result<Touch, LineFault> {
             "button" => pen.buttons |= 1 << (words.whole("a pen button", 1, 2)? - 1),
             "eraser" => pen.eraser = true,
             "tilt" => pen.tilt_deg = [lean(words)?, lean(words)?],
+            "serial" => pen.serial = words.whole("the number of a pen", 1, u32::MAX)?,
             other => {
                 return Err(fault(
                     column,
-                    format!("expected pressure, tip, button, eraser or tilt, found `{other}`"),
+                    format!("expected pressure, tip, button, eraser, tilt or serial, found `{other}`"),
                 ));
             }
         }
@@ -116,7 +146,7 @@ fn pen(words: &mut Words<'_>) -> Result<Touch, LineFault> {
 
 fn puck(words: &mut Words<'_>) -> Result<Touch, LineFault> {
     if words.take("away") {
-        return Ok(Touch::Away);
+        return Ok(Touch::Lift(Held::Puck));
     }
     let mut puck = Puck {
         x: place(words, "x")?,
@@ -126,12 +156,13 @@ fn puck(words: &mut Words<'_>) -> Result<Touch, LineFault> {
     while words.peek().is_some() {
         let column = words.column();
         match words.any("more")? {
-            "button" => puck.buttons |= 1 << (words.whole("a puck button", 1, 4)? - 1),
+            "button" => puck.buttons |= 1 << (words.whole("a puck button", 1, 5)? - 1),
             "wheel" => puck.wheel = words.clicks()?,
+            "serial" => puck.serial = words.whole("the number of a puck", 1, u32::MAX)?,
             other => {
                 return Err(fault(
                     column,
-                    format!("expected button or wheel, found `{other}`"),
+                    format!("expected button, wheel or serial, found `{other}`"),
                 ));
             }
         }
@@ -228,13 +259,13 @@ impl<'a> Words<'a> {
         })
     }
 
-    fn whole(&mut self, what: &str, min: u8, max: u8) -> Result<u8, LineFault> {
+    fn whole<N>(&mut self, what: &str, min: N, max: N) -> Result<N, LineFault>
+    where
+        N: FromStr + PartialOrd + Display + Copy,
+    {
         let column = self.column();
         let word = self.any(what)?;
-        let value = word
-            .parse::<u8>()
-            .ok()
-            .filter(|value| (min..=max).contains(value));
+        let value = word.parse::<N>().ok().filter(|value| (min..=max).contains(value));
         value.ok_or_else(|| fault(column, format!("expected {what}, {min} to {max}, found `{word}`")))
     }
 

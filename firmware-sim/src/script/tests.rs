@@ -3,13 +3,13 @@
 use super::*;
 use crate::dial_box::{Options, SgiDialBox};
 use crate::firmware::Firmware;
-use crate::hands::{Pen, Puck, Turn};
+use crate::hands::{Held, Pen, Puck, Turn};
 
 #[test]
 fn reads_every_action() {
     let text = "# warm up\n\nat 0.5 dial 3 +12 over 0.25 # slowly\nat 1 dial 0 -90deg\nat 1 dial 7 +1.5turns\n\
                 at 2 button 31 down\nat 2.1 button 31 up\nat 3 power-cycle";
-    let script = Script::parse(Device::DialBox, text).expect("reads");
+    let script = Script::parse(Device::DIAL_BOX, text).expect("reads");
     let at = |at_us, touch| Action { at_us, touch };
     assert_eq!(
         script.actions,
@@ -60,7 +60,7 @@ fn reads_every_action() {
 #[test]
 fn reads_every_touch_of_a_tablet() {
     let at = |at_us, touch| Action { at_us, touch };
-    let text = "at 0 pen -1 0.5 pressure 0.75 tip button 1 button 2 eraser tilt -10 20\n\
+    let text = "at 0 pen -1 0.5 pressure 0.75 tip button 1 button 2 eraser tilt -10 20 serial 77\n\
                 at 1 puck 0 0 button 3 wheel -2\nat 2 pen away";
     let script = Script::parse(Device::Tablet, text).expect("reads");
     let pen = Pen {
@@ -71,19 +71,21 @@ fn reads_every_touch_of_a_tablet() {
         buttons: 3,
         eraser: true,
         tilt_deg: [-10, 20],
+        serial: 77,
     };
     let puck = Puck {
         x: 0.0,
         y: 0.0,
         buttons: 4,
         wheel: -2,
+        serial: 0,
     };
     assert_eq!(
         script.actions,
         [
             at(0, Touch::Pen(pen)),
             at(1_000_000, Touch::Puck(puck)),
-            at(2_000_000, Touch::Away)
+            at(2_000_000, Touch::Lift(Held::Pen))
         ]
     );
 }
@@ -100,11 +102,11 @@ fn names_line_and_column_of_every_error() {
         ("at 1 dial 0", 12, "the end of the line"),
         ("at 1 button 32 down", 13, "0 to 31"),
         ("at 1 button 2 press", 15, "down or up"),
-        ("at 1 pen 0 0", 6, "expected dial, button or power-cycle"),
+        ("at 1 pen 0 0", 6, "expected dial, button, power-cycle or noise"),
         ("  at 1 power-cycle now", 20, "the end of the line"),
     ];
     for (text, column, part) in table {
-        let errors = Script::parse(Device::DialBox, text).expect_err(text);
+        let errors = Script::parse(Device::DIAL_BOX, text).expect_err(text);
         assert_eq!(
             (errors[0].line, errors[0].column),
             (1, column),
@@ -126,7 +128,7 @@ fn names_line_and_column_of_every_error() {
 
 #[test]
 fn plays_from_the_moment_reporting_begins() {
-    let script = Script::parse(Device::DialBox, "at 0.1 dial 2 +90deg").expect("reads");
+    let script = Script::parse(Device::DIAL_BOX, "at 0.1 dial 2 +90deg").expect("reads");
     let mut dial_box = SgiDialBox::new(Options::default());
     dial_box.play(&script);
     let mut out = Vec::new();
@@ -138,4 +140,33 @@ fn plays_from_the_moment_reporting_begins() {
     dial_box.transmit(5_200_000, &mut out);
     assert_eq!(out, [0x20, 0x32, 0, 64]);
     assert!(dial_box.script_is_done());
+}
+
+#[test]
+fn a_box_of_faders_knows_axes_and_no_dials() {
+    let faders = Device::Controls {
+        dials: 0,
+        buttons: 2,
+        axes: 5,
+    };
+    let script = Script::parse(faders, "at 0 axis 4 0.25 over 0.5\nat 1 noise 12").expect("reads");
+    let touches: Vec<Touch> = script.actions.into_iter().map(|action| action.touch).collect();
+    let axis = Touch::Axis {
+        control: 4,
+        to: 0.25,
+        over_us: 500_000,
+    };
+    assert_eq!(touches, [axis, Touch::Noise(12)]);
+    let table = [
+        ("at 0 dial 0 +1", 6, "expected button, axis, power-cycle or noise"),
+        ("at 0 axis 5 0", 11, "an axis, 0 to 4"),
+        ("at 0 axis 0 1.5", 13, "from -1 to 1"),
+        ("at 0 button 2 down", 13, "a button, 0 to 1"),
+        ("at 0 noise 0", 12, "1 to 1000"),
+    ];
+    for (text, column, part) in table {
+        let errors = Script::parse(faders, text).expect_err(text);
+        assert_eq!(errors[0].column, column, "{text}: {}", errors[0]);
+        assert!(errors[0].message.contains(part), "{text}: {}", errors[0]);
+    }
 }

@@ -164,6 +164,7 @@ fn a_puck_with_its_wheel() {
             y: 1.0,
             buttons: 2,
             wheel: -2,
+            serial: 0,
         }),
     );
     assert_eq!(
@@ -177,6 +178,7 @@ fn a_puck_with_its_wheel() {
             y: 1.0,
             buttons: 0,
             wheel: 1,
+            serial: 0,
         }),
     );
     assert_eq!(
@@ -280,7 +282,7 @@ proptest! {
 
     #[test]
     fn only_the_first_byte_has_bit_seven(x in -1.0f64..1.0, y in -1.0f64..1.0, pressure in 0.0f64..1.0, tip: bool, eraser: bool) {
-        let pen = Pen { x, y, pressure, tip, eraser, buttons: 3, tilt_deg: [-64, 63] };
+        let pen = Pen { x, y, pressure, tip, eraser, buttons: 3, tilt_deg: [-64, 63], serial: 0 };
         let mut scale = Scale::of(&graphire());
         scale.pressure = true;
         let (bytes, _) = packet::packet(&Pointer::pen(&pen, 3), &scale, true);

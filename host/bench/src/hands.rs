@@ -115,7 +115,7 @@ impl Held {
                 x,
                 y,
                 buttons: self.buttons,
-                wheel: 0,
+                ..Puck::default()
             }),
             (Some([x, y]), Tool::Pen) => Touch::Pen(Pen {
                 x,

@@ -34,7 +34,7 @@ impl Served {
     /// Reads a script for this device; a bus has none.
     pub fn script(&self, text: &str) -> Result<Script, Vec<ScriptError>> {
         match self {
-            Self::DialBox(_) => Script::parse(script::Device::DialBox, text),
+            Self::DialBox(_) => Script::parse(script::Device::DIAL_BOX, text),
             Self::Tablet(_) => Script::parse(script::Device::Tablet, text),
             Self::Bus(..) => Ok(Script::default()),
         }

@@ -230,7 +230,7 @@ fn a_dial_box_plays_its_script_and_tells_what_it_is_shown() {
         ..Options::default()
     };
     let mut device = Served::DialBox(Box::new(SgiDialBox::new(options)));
-    let script = firmware_sim::Script::parse(firmware_sim::script::Device::DialBox, "at 0.05 dial 2 +5\n");
+    let script = firmware_sim::Script::parse(firmware_sim::script::Device::DIAL_BOX, "at 0.05 dial 2 +5\n");
     device.play(&script.expect("reads"));
     let shown = serve(device, &Place::Pty(None), |path| {
         let mut port = open(path, 9600);

@@ -146,8 +146,10 @@ impl Stand {
         let control = match touch {
             Touch::Dial { control, .. } => format!("dial {control}"),
             Touch::Button { control, .. } => format!("button {control}"),
+            Touch::Axis { control, .. } => format!("axis {control}"),
             Touch::PowerCycle => "switch".to_owned(),
-            Touch::Pen(_) | Touch::Puck(_) | Touch::Away => "surface".to_owned(),
+            Touch::Noise(_) => "plug to rattle at".to_owned(),
+            Touch::Pen(_) | Touch::Puck(_) | Touch::Away | Touch::Lift(_) => "surface".to_owned(),
         };
         Err(HandError::NoSuchControl {
             name: name.to_owned(),
