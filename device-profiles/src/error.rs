@@ -39,7 +39,7 @@ pub enum ProfileError {
     },
     /// The file has none of the tables by which a kind is recognised.
     #[error(
-        "{file}:1:1: error: not a profile: expected `registers` (servo), `[[group]]` (puppet), `dials` (knobs) or `[surface]` (tablet)"
+        "{file}:1:1: error: not a profile: expected `registers` (servo), `[[group]]` (puppet), `kind` (input device) or `[[report]]` (layout)"
     )]
     UnknownKind {
         /// Path as it was given.
@@ -48,7 +48,7 @@ pub enum ProfileError {
     /// Nothing bears this name.
     #[error("there is no {kind} profile named \"{name}\"; there are: {known}")]
     Absent {
-        /// servo, puppet, knobs or tablet.
+        /// servo, puppet, input device or layout.
         kind: &'static str,
         /// What was asked for.
         name: String,

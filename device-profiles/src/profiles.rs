@@ -1,23 +1,23 @@
 //! All profiles at hand: the embedded ones, and over them the user's own.
 
 use crate::read::{fitting, key_of, parse, text_of};
-use crate::{KnobsProfile, ProfileError, PuppetProfile, ServoProfile, TabletProfile};
+use crate::{InputProfile, Layout, ProfileError, PuppetProfile, ServoProfile};
 use include_dir::{Dir, include_dir};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 static SERVOS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/servos");
 static PUPPETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/puppets");
-static KNOBS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/knobs");
-static TABLETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/tablets");
+static INPUTS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/inputs");
+static LAYOUTS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/layouts");
 
 /// Every profile the program can use, by key, in alphabetical order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Profiles {
     servos: BTreeMap<String, ServoProfile>,
     puppets: BTreeMap<String, PuppetProfile>,
-    knobs: BTreeMap<String, KnobsProfile>,
-    tablets: BTreeMap<String, TabletProfile>,
+    inputs: BTreeMap<String, InputProfile>,
+    layouts: BTreeMap<String, Layout>,
 }
 
 /// A profile of any kind.
@@ -27,17 +27,17 @@ pub enum Kind {
     Servo(Box<ServoProfile>),
     /// A puppet.
     Puppet(Box<PuppetProfile>),
-    /// A knob box.
-    Knobs(Box<KnobsProfile>),
-    /// A tablet.
-    Tablet(Box<TabletProfile>),
+    /// An input device.
+    Input(Box<InputProfile>),
+    /// What the reports of several input devices mean.
+    Layout(Box<Layout>),
 }
 
 impl Profiles {
     /// The profiles that are compiled in.
     pub fn builtin() -> Self {
         let mut all = Self::default();
-        for folder in [&SERVOS, &PUPPETS, &KNOBS, &TABLETS] {
+        for folder in [&SERVOS, &PUPPETS, &LAYOUTS, &INPUTS] {
             all.add_embedded(folder);
         }
         all
@@ -62,31 +62,28 @@ impl Profiles {
 
     /// Adds every `.toml` below `folder`; one with an embedded profile's key takes its place.
     /// A folder that does not exist adds nothing; every wrong file is reported, not only the first, and so is a
-    /// puppet that does not fit the servos there are once all are added.
+    /// puppet that does not fit the servos there are once all are added, or an input device without its layout.
     pub fn with_user_folder(mut self, folder: &Path) -> Result<Self, Vec<ProfileError>> {
         let mut errors = Vec::new();
         let mut files = Vec::new();
         if folder.exists() {
             collect(folder, &mut files, &mut errors);
         }
-        let mut puppets = Vec::new();
+        let mut read = Vec::new();
         for path in files {
             let file = path.display().to_string();
-            let read = text_of(&path).and_then(|text| Ok((parse(&file, &key_of(&path), &text)?, text)));
-            match read {
+            match text_of(&path).and_then(|text| Ok((parse(&file, &key_of(&path), &text)?, text))) {
                 Ok((profile, text)) => {
-                    if let Kind::Puppet(puppet) = &profile {
-                        puppets.push((file, text, puppet.clone()));
-                    }
+                    read.push((file, text, profile.clone()));
                     self.add(profile);
                 }
                 Err(found) => errors.extend(found),
             }
         }
-        // Against a servo that could not be read, a puppet is not judged: one mistake, one message.
+        // Against a servo or layout that could not be read, nothing is judged: one mistake, one message.
         if errors.is_empty() {
-            for (file, text, puppet) in puppets {
-                errors.extend(fitting(&file, &text, &puppet, &self).err().into_iter().flatten());
+            for (file, text, profile) in read {
+                errors.extend(fitting(&file, &text, &profile, &self).err().into_iter().flatten());
             }
         }
         if errors.is_empty() { Ok(self) } else { Err(errors) }
@@ -97,8 +94,8 @@ impl Profiles {
         match profile {
             Kind::Servo(p) => drop(self.servos.insert(p.key.clone(), *p)),
             Kind::Puppet(p) => drop(self.puppets.insert(p.key.clone(), *p)),
-            Kind::Knobs(p) => drop(self.knobs.insert(p.key.clone(), *p)),
-            Kind::Tablet(p) => drop(self.tablets.insert(p.key.clone(), *p)),
+            Kind::Input(p) => drop(self.inputs.insert(p.key.clone(), *p)),
+            Kind::Layout(l) => drop(self.layouts.insert(l.key.clone(), *l)),
         }
     }
 
@@ -112,14 +109,14 @@ impl Profiles {
         find(&self.puppets, "puppet", name, |p| &p.name)
     }
 
-    /// The knob box whose key or name this is.
-    pub fn knobs(&self, name: &str) -> Result<&KnobsProfile, ProfileError> {
-        find(&self.knobs, "knobs", name, |p| &p.name)
+    /// The input device whose key or name this is.
+    pub fn input(&self, name: &str) -> Result<&InputProfile, ProfileError> {
+        find(&self.inputs, "input device", name, |p| &p.name)
     }
 
-    /// The tablet whose key or name this is.
-    pub fn tablet(&self, name: &str) -> Result<&TabletProfile, ProfileError> {
-        find(&self.tablets, "tablet", name, |p| &p.name)
+    /// The layout whose key or name this is.
+    pub fn layout(&self, name: &str) -> Result<&Layout, ProfileError> {
+        find(&self.layouts, "layout", name, |l| &l.name)
     }
 
     /// The servo that answers a ping with this model number.
@@ -137,14 +134,14 @@ impl Profiles {
         self.puppets.values()
     }
 
-    /// All knob boxes, by key.
-    pub fn all_knobs(&self) -> impl Iterator<Item = &KnobsProfile> {
-        self.knobs.values()
+    /// All input devices, by key.
+    pub fn inputs(&self) -> impl Iterator<Item = &InputProfile> {
+        self.inputs.values()
     }
 
-    /// All tablets, by key.
-    pub fn tablets(&self) -> impl Iterator<Item = &TabletProfile> {
-        self.tablets.values()
+    /// All layouts, by key.
+    pub fn layouts(&self) -> impl Iterator<Item = &Layout> {
+        self.layouts.values()
     }
 }
 

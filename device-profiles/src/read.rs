@@ -1,7 +1,7 @@
 //! Text to profile, with the place of every complaint.
 
 use crate::profiles::Kind;
-use crate::{KnobsProfile, ProfileError, Profiles, PuppetProfile, ServoProfile, TabletProfile};
+use crate::{InputProfile, Layout, ProfileError, Profiles, PuppetProfile, ServoProfile};
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
@@ -18,6 +18,8 @@ enum Needle {
     Header(&'static str, usize),
     /// First occurrence of this text.
     Text(String),
+    /// The n-th occurrence of this text.
+    Nth(String, usize),
 }
 
 impl Flaw {
@@ -42,6 +44,13 @@ impl Flaw {
         }
     }
 
+    pub(crate) fn at_nth(text: String, nth: usize, message: impl Into<String>) -> Self {
+        Self {
+            needle: Needle::Nth(text, nth),
+            message: message.into(),
+        }
+    }
+
     pub(crate) fn message(&self) -> &str {
         &self.message
     }
@@ -59,6 +68,7 @@ impl Flaw {
                 .nth(*nth)
                 .map(|(at, _)| at),
             Needle::Text(needle) => text.find(needle.as_str()),
+            Needle::Nth(needle, nth) => text.match_indices(needle.as_str()).nth(*nth).map(|(at, _)| at),
         };
         found.unwrap_or(0)
     }
@@ -78,25 +88,32 @@ pub fn read_file(path: &Path) -> Result<Kind, Vec<ProfileError>> {
 }
 
 /// Reads one file and says also what keeps it from working with the profiles there are: a puppet with servos
-/// that nobody knows, that cannot reach what it asks, or that cannot speak as fast as its bus.
+/// that nobody knows, that cannot reach what it asks, or that cannot speak as fast as its bus; an input device
+/// whose layout is not there.
 pub fn read_file_among(path: &Path, others: &Profiles) -> Result<Kind, Vec<ProfileError>> {
     let text = text_of(path)?;
     let file = path.display().to_string();
     let profile = parse(&file, &key_of(path), &text)?;
-    match &profile {
-        Kind::Puppet(puppet) => fitting(&file, &text, puppet, others).map(|()| profile),
-        _ => Ok(profile),
-    }
+    fitting(&file, &text, &profile, others).map(|()| profile)
 }
 
-/// Whether a puppet and its servos fit; `text` is the puppet's, for the places of what does not.
+/// Whether a puppet and its servos, or an input device and its layout, fit; `text` is the profile's, for the
+/// places of what does not.
 pub(crate) fn fitting(
     file: &str,
     text: &str,
-    puppet: &PuppetProfile,
+    profile: &Kind,
     others: &Profiles,
 ) -> Result<(), Vec<ProfileError>> {
-    contradictions(file, text, &crate::puppet::misfits(puppet, others))
+    let misfits = match profile {
+        Kind::Puppet(puppet) => crate::puppet::misfits(puppet, others),
+        Kind::Input(input) => match input.reports(others) {
+            Ok(_) => Vec::new(),
+            Err(absent) => vec![Flaw::at_key("layout", absent.to_string())],
+        },
+        Kind::Servo(_) | Kind::Layout(_) => Vec::new(),
+    };
+    contradictions(file, text, &misfits)
 }
 
 pub(crate) fn text_of(path: &Path) -> Result<String, Vec<ProfileError>> {
@@ -130,17 +147,17 @@ pub(crate) fn parse(file: &str, key: &str, text: &str) -> Result<Kind, Vec<Profi
             key: key.to_owned(),
             ..profile
         })))
-    } else if has("dials") {
-        let profile: KnobsProfile = typed(file, text)?;
-        Ok(Kind::Knobs(Box::new(KnobsProfile {
+    } else if has("kind") {
+        let profile: InputProfile = typed(file, text)?;
+        Ok(Kind::Input(Box::new(InputProfile {
             key: key.to_owned(),
             ..profile
         })))
-    } else if has("surface") {
-        let profile: TabletProfile = typed(file, text)?;
-        Ok(Kind::Tablet(Box::new(TabletProfile {
+    } else if has("report") {
+        let layout: Layout = typed(file, text)?;
+        Ok(Kind::Layout(Box::new(Layout {
             key: key.to_owned(),
-            ..profile
+            ..layout
         })))
     } else {
         Err(vec![ProfileError::UnknownKind {

@@ -16,15 +16,15 @@ fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
 
 #[test]
 fn a_users_profile_takes_the_built_in_ones_place() {
-    let text =
-        include_str!("../knobs/sgi-dialbox.toml").replace("counts_per_turn = 256", "counts_per_turn = 200");
+    let text = include_str!("../inputs/sgi-dialbox.toml")
+        .replace("counts_per_turn = 256.0", "counts_per_turn = 200.0");
     let folder = folder(
         "own",
         &[("sgi-dialbox.toml", &text), ("notes.txt", "not a profile")],
     );
     let all = Profiles::builtin().with_user_folder(&folder).unwrap();
-    assert_eq!(all.knobs("sgi-dialbox").unwrap().counts_per_turn, 200);
-    assert_eq!(all.all_knobs().count(), Profiles::builtin().all_knobs().count());
+    assert_eq!(all.input("sgi-dialbox").unwrap().counts_per_turn(), 200.0);
+    assert_eq!(all.inputs().count(), Profiles::builtin().inputs().count());
     assert_eq!(
         Profiles::builtin()
             .with_user_folder(Path::new("no-such"))
@@ -78,7 +78,7 @@ fn check_refused(name: &str, text: &str, message: &str, place: &str) {
     );
 }
 
-const KNOBS: &str = include_str!("../knobs/sgi-dialbox.toml");
+const KNOBS: &str = include_str!("../inputs/sgi-dialbox.toml");
 const PUPPET: &str = include_str!("../puppets/marionette.toml");
 const SERVO: &str = include_str!("../servos/xl330-m288.toml");
 
@@ -100,10 +100,10 @@ fn wrong_shapes_are_refused_at_their_place() {
         ),
         ("baud = ", "baud == ", "", "= 9600"),
         (
-            "lamps = 32",
-            "lamps = 33",
-            "lamps must be at most 32, found 33",
-            "lamps",
+            "count = 8",
+            "count = 17",
+            "count of dial must be at most 16, found 17",
+            "[[control]]",
         ),
     ];
     for (at, (from, to, message, place)) in rows.into_iter().enumerate() {

@@ -14,7 +14,7 @@ use crate::line::Line;
 use crate::script::Script;
 use crate::uart::Parity;
 use command::{Command, Parser};
-use device_profiles::KnobsProfile;
+use device_profiles::InputProfile;
 use dials::{DIALS, Dials};
 use std::collections::VecDeque;
 
@@ -50,11 +50,11 @@ impl Default for Options {
     }
 }
 
-impl From<&KnobsProfile> for Options {
-    fn from(profile: &KnobsProfile) -> Self {
+impl From<&InputProfile> for Options {
+    fn from(profile: &InputProfile) -> Self {
         Self {
-            labels: profile.labels.is_some(),
-            counts_per_turn: profile.counts_per_turn,
+            labels: profile.label_characters() > 0,
+            counts_per_turn: profile.counts_per_turn() as u32,
             ..Self::default()
         }
     }

@@ -14,7 +14,7 @@ use crate::line::{Line, shortened};
 use crate::script::Script;
 use crate::uart::Parity;
 use command::{Command, Parser};
-use device_profiles::TabletProfile;
+use device_profiles::InputProfile;
 use packet::{Pointer, Scale};
 use std::collections::VecDeque;
 
@@ -50,17 +50,19 @@ pub struct Model {
     pub wheel: bool,
 }
 
-impl From<&TabletProfile> for Model {
-    fn from(profile: &TabletProfile) -> Self {
+impl From<&InputProfile> for Model {
+    fn from(profile: &InputProfile) -> Self {
+        let wacom = profile.wacom.clone().unwrap_or_default();
+        let area = profile.area();
         Self {
-            text: profile.identify.model.clone(),
-            version: profile.identify.version.clone(),
-            resolution: profile.surface.counts_per_inch,
-            max: profile.surface.counts,
-            pressure_max: profile.surface.pressure,
-            eraser_bit: profile.surface.eraser_bit.min(3),
-            tilt: profile.surface.tilt,
-            answers_size: profile.identify.answers_size,
+            text: wacom.model,
+            version: wacom.version,
+            resolution: area.counts_per_inch.unwrap_or_default(),
+            max: area.counts,
+            pressure_max: u16::try_from(area.pressure).unwrap_or(u16::MAX),
+            eraser_bit: wacom.eraser_bit.min(3),
+            tilt: area.tilt(),
+            answers_size: wacom.answers_size,
             wheel: profile.tools.iter().any(|tool| tool.wheel == Some(true)),
         }
     }

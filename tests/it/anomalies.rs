@@ -210,8 +210,8 @@ fn tame(event: &InputEvent) {
 #[test]
 fn garbage_on_input_lines_makes_no_wild_events() {
     let profiles = Profiles::builtin();
-    let knobs = profiles.knobs("sgi-dialbox").expect("it is built in");
-    let tablet = profiles.tablet("graphire-serial").expect("it is built in");
+    let knobs = profiles.input("sgi-dialbox").expect("it is built in");
+    let tablet = profiles.input("graphire-serial").expect("it is built in");
     let mut chance = Chance(11);
     for kind in 0..60 {
         let codecs: [Box<dyn Codec>; 3] = [

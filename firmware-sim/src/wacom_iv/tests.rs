@@ -31,7 +31,7 @@ fn digitizer() -> Model {
 #[test]
 fn the_shipped_models_are_what_their_profiles_say() {
     let profiles = device_profiles::Profiles::builtin();
-    let graphire = Model::from(profiles.tablet("graphire-serial").expect("shipped"));
+    let graphire = Model::from(profiles.input("graphire-serial").expect("shipped"));
     let mut tablet = WacomIv::new(graphire, 0);
     let mut now = 0;
     assert!(ask(&mut tablet, &mut now, b"~#", 100_000).starts_with(b"~#ET"));
@@ -40,7 +40,7 @@ fn the_shipped_models_are_what_their_profiles_say() {
         b"",
         "a Graphire keeps its size to itself"
     );
-    let digitizer = Model::from(profiles.tablet("digitizer-ii").expect("shipped"));
+    let digitizer = Model::from(profiles.input("digitizer-ii").expect("shipped"));
     let mut tablet = WacomIv::new(digitizer, 0);
     assert_eq!(ask(&mut tablet, &mut now, b"~C\r", 100_000), b"~C15240,15240\r");
 }

@@ -5,7 +5,7 @@ use crate::codec::sgi_dial_box::SgiDialBox;
 use crate::codec::wacom_iv::WacomIv;
 use crate::codec::{Codec, Counters, Feedback, InputEvent, Outgoing, Stamped, Step, Surface};
 use crate::transport::{Transport, TransportError};
-use device_profiles::{KnobsProfile, TabletProfile};
+use device_profiles::InputProfile;
 
 /// Bytes taken in one look; a kernel's terminal buffer is as large.
 const READ_BYTES: usize = 4096;
@@ -62,44 +62,23 @@ impl Device {
         }
     }
 
-    /// The device a knob box's profile describes.
-    pub fn knobs(
+    /// The device a profile describes.
+    pub fn of_profile(
         name: impl Into<String>,
-        profile: &KnobsProfile,
+        profile: &InputProfile,
         transport: Box<dyn Transport>,
     ) -> Result<Self, UnknownFormat> {
-        match profile.format.as_str() {
-            "sgi-dial-box" => Ok(Self::new(
-                name,
-                &profile.key,
-                transport,
-                Box::new(SgiDialBox::new(profile)),
-            )),
-            other => Err(UnknownFormat {
-                profile: profile.key.clone(),
-                format: other.to_owned(),
-            }),
-        }
-    }
-
-    /// The device a tablet's profile describes.
-    pub fn tablet(
-        name: impl Into<String>,
-        profile: &TabletProfile,
-        transport: Box<dyn Transport>,
-    ) -> Result<Self, UnknownFormat> {
-        match profile.format.as_str() {
-            "wacom-iv" => Ok(Self::new(
-                name,
-                &profile.key,
-                transport,
-                Box::new(WacomIv::new(profile)),
-            )),
-            other => Err(UnknownFormat {
-                profile: profile.key.clone(),
-                format: other.to_owned(),
-            }),
-        }
+        let codec: Box<dyn Codec> = match profile.format.as_str() {
+            "sgi-dial-box" => Box::new(SgiDialBox::new(profile)),
+            "wacom-iv" => Box::new(WacomIv::new(profile)),
+            other => {
+                return Err(UnknownFormat {
+                    profile: profile.key.clone(),
+                    format: other.to_owned(),
+                });
+            }
+        };
+        Ok(Self::new(name, &profile.key, transport, codec))
     }
 
     /// Takes what has arrived, goes on with the conversation, and appends the events. Never waits.
@@ -247,9 +226,9 @@ mod tests {
     fn device() -> (Device, MemoryTransport) {
         let (host, far) = pair();
         let all = Profiles::builtin();
-        let profile = all.knobs("sgi-dialbox").expect("it is built in");
+        let profile = all.input("sgi-dialbox").expect("it is built in");
         (
-            Device::knobs("box", profile, Box::new(host)).expect("its format is known"),
+            Device::of_profile("box", profile, Box::new(host)).expect("its format is known"),
             far,
         )
     }

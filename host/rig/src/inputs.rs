@@ -7,7 +7,7 @@ use device::clock::Instant;
 use device::codec::{Feedback, InputEvent, Stamped};
 use device::transport::{Transport, TransportError};
 use device::{Device, Health, UnknownFormat};
-use device_profiles::Profiles;
+use device_profiles::{ControlClass, Profiles};
 
 use crate::desk::Source;
 use crate::ports::Ports;
@@ -22,7 +22,7 @@ const LOOK_AGAIN: Duration = Duration::from_secs(1);
 pub struct InputSpec {
     /// What the rig calls it.
     pub name: String,
-    /// Key of a knob box's or tablet's profile.
+    /// Key of an input device's profile.
     pub profile: String,
     /// Where to open it.
     pub address: String,
@@ -32,7 +32,7 @@ pub struct InputSpec {
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
     /// No such profile.
-    #[error("input {name}: there is no profile \"{profile}\" of a dial box or tablet; there are: {known}")]
+    #[error("input {name}: there is no profile \"{profile}\" of an input device; there are: {known}")]
     Profile {
         /// The device.
         name: String,
@@ -51,11 +51,8 @@ pub enum InputError {
 
 /// Keys of all profiles of input devices.
 pub(crate) fn known_profiles(profiles: &Profiles) -> String {
-    let knobs = profiles.all_knobs().map(|p| p.key.as_str());
-    knobs
-        .chain(profiles.tablets().map(|p| p.key.as_str()))
-        .collect::<Vec<_>>()
-        .join(", ")
+    let keys: Vec<_> = profiles.inputs().map(|p| p.key.as_str()).collect();
+    keys.join(", ")
 }
 
 /// All input devices.
@@ -69,7 +66,7 @@ struct Seat {
     make: Make,
     baud: u32,
     counts_per_turn: f64,
-    dials: u8,
+    dials: u16,
     device: Option<Device>,
     health: DeviceHealth,
     events: u64,
@@ -162,21 +159,15 @@ impl Inputs {
 impl Seat {
     fn new(spec: InputSpec, profiles: &Profiles) -> Result<Self, InputError> {
         let name = spec.name.clone();
-        let (make, baud, counts_per_turn, dials): (Make, u32, f64, u8) =
-            if let Ok(knobs) = profiles.knobs(&spec.profile) {
-                let profile = knobs.clone();
-                let make: Make = Box::new(move |line| Device::knobs(name.clone(), &profile, line));
-                (make, knobs.baud, f64::from(knobs.counts_per_turn), knobs.dials)
-            } else {
-                let tablet = profiles.tablet(&spec.profile).map_err(|_| InputError::Profile {
-                    name: spec.name.clone(),
-                    profile: spec.profile.clone(),
-                    known: known_profiles(profiles),
-                })?;
-                let profile = tablet.clone();
-                let make: Make = Box::new(move |line| Device::tablet(name.clone(), &profile, line));
-                (make, tablet.baud, 1.0, 0)
-            };
+        let profile = profiles.input(&spec.profile).map_err(|_| InputError::Profile {
+            name: spec.name.clone(),
+            profile: spec.profile.clone(),
+            known: known_profiles(profiles),
+        })?;
+        let (baud, counts_per_turn) = (profile.baud(), profile.counts_per_turn());
+        let dials = profile.count(ControlClass::Dial);
+        let profile = profile.clone();
+        let make: Make = Box::new(move |line| Device::of_profile(name.clone(), &profile, line));
         Ok(Self {
             spec,
             make,

@@ -104,15 +104,11 @@ impl Listener {
         profiles: &Profiles,
         clock: Arc<dyn Clock>,
     ) -> Result<Self, ListenError> {
-        let device = if let Ok(knobs) = profiles.knobs(profile) {
-            Device::knobs(address, knobs, ports.open(address, knobs.baud)?)?
-        } else {
-            let tablet = profiles.tablet(profile).map_err(|_| ListenError::Profile {
-                profile: profile.to_owned(),
-                known: known_profiles(profiles),
-            })?;
-            Device::tablet(address, tablet, ports.open(address, tablet.baud)?)?
-        };
+        let known = profiles.input(profile).map_err(|_| ListenError::Profile {
+            profile: profile.to_owned(),
+            known: known_profiles(profiles),
+        })?;
+        let device = Device::of_profile(address, known, ports.open(address, known.baud())?)?;
         let began = clock.now();
         Ok(Self {
             device,

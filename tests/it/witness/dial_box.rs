@@ -156,10 +156,10 @@ fn a_reader_of_the_documented_bytes_hears_every_turn_and_press() {
 #[test]
 fn our_codec_hears_the_same() {
     let profiles = Profiles::builtin();
-    let profile = profiles.knobs("sgi-dialbox-display").expect("it is built in");
+    let profile = profiles.input("sgi-dialbox-display").expect("it is built in");
     let served = Served::start(SgiDialBox::new(profile.into())).expect("a pseudo-terminal");
     let line = serial::open(&served.path_text(), BAUD).expect("the terminal opens");
-    let mut device = Device::knobs("box", profile, Box::new(line)).expect("its format is known");
+    let mut device = Device::of_profile("box", profile, Box::new(line)).expect("its format is known");
     let clock = MonotonicClock::new();
     let mut heard = Heard::default();
     let listen = |device: &mut Device, heard: &mut Heard| {

@@ -7,7 +7,7 @@ use super::{in_time, pause};
 use device::codec::{InputEvent, Tool};
 use device::transport::serial;
 use device::{Clock, Device, MonotonicClock};
-use device_profiles::{Profiles, TabletProfile};
+use device_profiles::{InputProfile, Profiles};
 use dialrig_tests::simulated::Served;
 use firmware_sim::hands::{Hands, Pen, Puck, Touch};
 use firmware_sim::{WacomIv, wacom_iv::Model};
@@ -99,9 +99,9 @@ fn touches(tilt: bool) -> Vec<Touch> {
 
 /// What each of those is in counts, from the meaning of script coordinates: −1…1 over each side, y up, while the
 /// tablet counts from its upper left corner.
-fn wanted(profile: &TabletProfile) -> Vec<Seen> {
-    let [wide, high] = profile.surface.counts;
-    let tilted = profile.surface.tilt;
+fn wanted(profile: &InputProfile) -> Vec<Seen> {
+    let [wide, high] = profile.area().counts;
+    let tilted = profile.area().tilt();
     let place = |x: f64, y: f64| {
         let count = |share: f64, most: f64| (share * most).round() as u16;
         [
@@ -125,7 +125,7 @@ fn wanted(profile: &TabletProfile) -> Vec<Seen> {
         last = match touch {
             Touch::Pen(pen) => {
                 let [x, y] = place(pen.x, pen.y);
-                let pressure = (pen.pressure * f64::from(profile.surface.pressure)).round() as u16;
+                let pressure = (pen.pressure * f64::from(profile.area().pressure)).round() as u16;
                 let tilt = tilted.then_some(pen.tilt_deg);
                 let (tip, buttons) = (pen.tip, pen.buttons);
                 Seen {
@@ -209,15 +209,15 @@ struct Reader {
 }
 
 impl Reader {
-    fn open(path: &str, profile: &TabletProfile) -> Self {
+    fn open(path: &str, profile: &InputProfile) -> Self {
         let port = serialport::new(path, BAUD)
             .timeout(Duration::from_millis(120))
             .open();
         Self {
             port: port.expect("the terminal opens"),
-            length: if profile.surface.tilt { 9 } else { 7 },
-            extra_bits: if profile.surface.pressure > 255 { 2 } else { 1 },
-            eraser_bit: profile.surface.eraser_bit,
+            length: if profile.area().tilt() { 9 } else { 7 },
+            extra_bits: if profile.area().pressure > 255 { 2 } else { 1 },
+            eraser_bit: profile.wacom.as_ref().map_or(0, |w| w.eraser_bit),
             packet: Vec::new(),
             eraser: false,
             last: None,
@@ -337,9 +337,9 @@ impl Reader {
     }
 }
 
-fn tablet(key: &str) -> (TabletProfile, Served<WacomIv>) {
+fn tablet(key: &str) -> (InputProfile, Served<WacomIv>) {
     let profiles = Profiles::builtin();
-    let profile = profiles.tablet(key).expect("it is built in").clone();
+    let profile = profiles.input(key).expect("it is built in").clone();
     let served = Served::start(WacomIv::new(Model::from(&profile), 0)).expect("a pseudo-terminal");
     (profile, served)
 }
@@ -353,21 +353,21 @@ fn a_reader_of_the_documented_packets_sees_every_touch() {
         pause(200);
         let model = reader.ask("~#");
         assert!(
-            model.starts_with("~#") && model[2..].starts_with(&profile.identify.prefix),
+            model.starts_with("~#") && model[2..].starts_with(profile.answer_prefix()),
             "{model}"
         );
-        if profile.identify.answers_size {
-            let [x, y] = profile.surface.counts;
+        if profile.wacom.as_ref().is_some_and(|w| w.answers_size) {
+            let [x, y] = profile.area().counts;
             assert_eq!(reader.ask("~C\r"), format!("~C{x:05},{y:05}\r"));
             let fine = reader.ask("~R\r");
-            let [across, up] = profile.surface.counts_per_inch;
+            let [across, up] = profile.area().counts_per_inch.expect("it is said");
             assert!(
                 fine.starts_with("~R") && fine.ends_with(&format!(",{across},{up}\r")),
                 "{fine}"
             );
         }
-        reader.set_up(profile.surface.tilt);
-        act(&served, profile.surface.tilt, || ());
+        reader.set_up(profile.area().tilt());
+        act(&served, profile.area().tilt(), || ());
         let wanted = wanted(&profile);
         in_time("all packets have come", || {
             reader.listen();
@@ -385,7 +385,7 @@ fn our_codec_sees_the_same() {
     for key in ["graphire-serial", "digitizer-ii"] {
         let (profile, served) = tablet(key);
         let line = serial::open(&served.path_text(), BAUD).expect("the terminal opens");
-        let mut device = Device::tablet("tablet", &profile, Box::new(line)).expect("its format is known");
+        let mut device = Device::of_profile("tablet", &profile, Box::new(line)).expect("its format is known");
         let clock = MonotonicClock::new();
         let mut seen = Vec::new();
         let listen = |device: &mut Device, seen: &mut Vec<Seen>| {
@@ -419,7 +419,7 @@ fn our_codec_sees_the_same() {
             }
             device.started()
         });
-        act(&served, profile.surface.tilt, || listen(&mut device, &mut seen));
+        act(&served, profile.area().tilt(), || listen(&mut device, &mut seen));
         let wanted = wanted(&profile);
         in_time("all packets have come", || {
             listen(&mut device, &mut seen);

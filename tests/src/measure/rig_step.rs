@@ -83,7 +83,7 @@ impl DialRig {
             puppet: None,
             recorder: None,
         };
-        let dial_box = SgiDialBox::new(profiles.knobs(BOX)?.into());
+        let dial_box = SgiDialBox::new(profiles.input(BOX)?.into());
         let ports = Box::new(OneLine(Some(near)));
         let rig = Rig::new(Arc::new(clock.clone()), ports, options)?;
         let mut rig = Self {
@@ -149,7 +149,7 @@ fn shows() -> PathBuf {
 
 /// A codec that hears the box's reports from the middle of a conversation.
 pub fn listening_codec() -> anyhow::Result<DialCodec> {
-    Ok(DialCodec::listening(Profiles::builtin().knobs(BOX)?))
+    Ok(DialCodec::listening(Profiles::builtin().input(BOX)?))
 }
 
 /// Takes the measure.

@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn every_direction_can_be_pointed_at_within_a_few_degrees() {
         let profiles = Profiles::builtin();
-        let surface = Surface::from(profiles.tablet("graphire-serial").expect("built in"));
+        let surface = Surface::from(profiles.input("graphire-serial").expect("built in"));
         let view = ViewState {
             azimuth_rad: 0.4,
             elevation_rad: -0.2,

@@ -1,6 +1,6 @@
 //! A device that can be served, and what the loop must know of it.
 
-use device_profiles::{KnobsProfile, TabletProfile};
+use device_profiles::InputProfile;
 use firmware_sim::dial_box::Output;
 use firmware_sim::hands::Hands;
 use firmware_sim::script::{self, ScriptError};
@@ -22,12 +22,12 @@ pub enum Served {
 
 impl Served {
     /// The dial box a profile describes, switched on.
-    pub fn dial_box(profile: &KnobsProfile) -> Self {
+    pub fn dial_box(profile: &InputProfile) -> Self {
         Self::DialBox(Box::new(SgiDialBox::new(profile.into())))
     }
 
     /// The tablet a profile describes, switched on, with a clock that is right.
-    pub fn tablet(profile: &TabletProfile) -> Self {
+    pub fn tablet(profile: &InputProfile) -> Self {
         Self::Tablet(Box::new(WacomIv::new(Model::from(profile), 0)))
     }
 

@@ -4,9 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
 
 use device::clock::Clock;
-use device_profiles::{
-    KnobsProfile, ProfileError, Profiles, PuppetJoint, PuppetProfile, ServoProfile, TabletProfile,
-};
+use device_profiles::{InputProfile, ProfileError, Profiles, PuppetJoint, PuppetProfile, ServoProfile};
 use firmware_sim::dial_box::Options;
 use firmware_sim::servo_bus::{AddError, BusOptions, PlantKind, Sag, Unit};
 use firmware_sim::wacom_iv::Model;
@@ -100,14 +98,14 @@ impl StandBuilder {
     }
 
     /// Adds a dial box as `sim:NAME`.
-    pub fn dial_box(self, name: &str, profile: &KnobsProfile) -> Result<Self, StandError> {
+    pub fn dial_box(self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
         let dial_box = SgiDialBox::new(Options::from(profile));
-        let device = Simulated::DialBox(Box::new(dial_box), profile.counts_per_turn);
+        let device = Simulated::DialBox(Box::new(dial_box), profile.counts_per_turn() as u32);
         self.seat(name, &profile.name, vec![profile.key.clone()], device)
     }
 
     /// Adds a tablet as `sim:NAME`.
-    pub fn tablet(self, name: &str, profile: &TabletProfile) -> Result<Self, StandError> {
+    pub fn tablet(self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
         let tablet = WacomIv::new(Model::from(profile), 0);
         let device = Simulated::Tablet(Box::new(tablet), Surface::from(profile));
         self.seat(name, &profile.name, vec![profile.key.clone()], device)

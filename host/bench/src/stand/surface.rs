@@ -3,7 +3,7 @@
 //! A script says −1…1 for the whole of each side. The network's `TABLETIN` says −1…1 for the longer side and
 //! keeps the aspect, so that a circle of the hand is a circle (`docs/ps300/functions.md`, TABLETIN).
 
-use device_profiles::TabletProfile;
+use device_profiles::InputProfile;
 
 /// The active area in counts and inches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,13 +12,10 @@ pub struct Surface {
     inches: [f64; 2],
 }
 
-impl From<&TabletProfile> for Surface {
-    fn from(profile: &TabletProfile) -> Self {
-        let counts = profile.surface.counts.map(f64::from);
-        let [x, y] = profile
-            .surface
-            .counts_per_inch
-            .map(|per_inch| f64::from(per_inch.max(1)));
+impl From<&InputProfile> for Surface {
+    fn from(profile: &InputProfile) -> Self {
+        let counts = profile.area().counts.map(f64::from);
+        let [x, y] = profile.area().per_inch().map(|per_inch| per_inch.max(1.0));
         Self {
             counts,
             inches: [counts[0] / x, counts[1] / y],
@@ -62,7 +59,7 @@ mod tests {
 
     fn graphire() -> Surface {
         Profiles::builtin()
-            .tablet("graphire-serial")
+            .input("graphire-serial")
             .expect("built in")
             .into()
     }

@@ -7,7 +7,7 @@ mod shown;
 
 use super::{Codec, Counters, Feedback, InputEvent, Outgoing};
 use crate::clock::Instant;
-use device_profiles::KnobsProfile;
+use device_profiles::{ControlClass, InputProfile};
 use report::{Report, Reports};
 use shown::Shown;
 use std::time::Duration;
@@ -62,17 +62,22 @@ pub struct SgiDialBox {
     counters: Counters,
 }
 
+/// The format has four bits for a dial.
+fn dials_of(profile: &InputProfile) -> u8 {
+    profile.count(ControlClass::Dial).min(16) as u8
+}
+
 impl SgiDialBox {
     /// For a box that has yet to be asked.
-    pub fn new(profile: &KnobsProfile) -> Self {
+    pub fn new(profile: &InputProfile) -> Self {
         Self {
-            dials: profile.dials.min(16),
-            buttons: profile.buttons.min(32),
-            starts_at_zero: profile.counts_start_at_zero,
+            dials: dials_of(profile),
+            buttons: profile.count(ControlClass::Button).min(32) as u8,
+            starts_at_zero: profile.sgi.is_some_and(|sgi| sgi.counts_start_at_zero),
             phase: Phase::Idle,
             known: false,
             surprised: false,
-            reports: Reports::new(profile.dials.min(16)),
+            reports: Reports::new(dials_of(profile)),
             unfinished_since: None,
             counts: [None; 16],
             down: 0,
@@ -82,7 +87,7 @@ impl SgiDialBox {
     }
 
     /// For a recording that begins when the box already reports.
-    pub fn listening(profile: &KnobsProfile) -> Self {
+    pub fn listening(profile: &InputProfile) -> Self {
         let mut codec = Self::new(profile);
         codec.phase = Phase::Running {
             chained_until: Instant::ZERO,

@@ -10,7 +10,7 @@ use super::{Codec, Counters, Feedback, InputEvent, Outgoing, PenSample, Surface,
 use crate::clock::Instant;
 use answer::Identity;
 use conversation::Conversation;
-use device_profiles::{TabletProfile, Tool as ToolKind};
+use device_profiles::{InputProfile, Tool as ToolKind};
 use packet::{Format, Packets, Raw};
 use std::time::Duration;
 
@@ -20,7 +20,7 @@ const PACKET_LIMIT: Duration = Duration::from_millis(100);
 /// The host's side of the tablet.
 #[derive(Debug)]
 pub struct WacomIv {
-    profile: TabletProfile,
+    profile: InputProfile,
     conversation: Conversation,
     /// Whether `Started` has been said.
     known: bool,
@@ -36,7 +36,7 @@ pub struct WacomIv {
 
 impl WacomIv {
     /// For a tablet that has yet to be asked.
-    pub fn new(profile: &TabletProfile) -> Self {
+    pub fn new(profile: &InputProfile) -> Self {
         let surface = surface_of(profile);
         Self {
             profile: profile.clone(),
@@ -52,7 +52,7 @@ impl WacomIv {
     }
 
     /// For a recording that begins when the tablet already reports, set up as [`Codec::start`] does.
-    pub fn listening(profile: &TabletProfile) -> Self {
+    pub fn listening(profile: &InputProfile) -> Self {
         let mut codec = Self::new(profile);
         codec.conversation = Conversation::Running;
         codec.known = true;
@@ -78,7 +78,7 @@ impl WacomIv {
     fn learn(&mut self, answer: answer::Answer) {
         match answer {
             answer::Answer::Identity(identity) => {
-                if !identity.model.starts_with(&self.profile.identify.prefix) {
+                if !identity.model.starts_with(self.profile.answer_prefix()) {
                     // Another model than the profile's: its own numbers still hold where it gives them.
                     self.counters.rejected += 1;
                 }
@@ -112,7 +112,7 @@ impl WacomIv {
         if !raw.stylus {
             return Tool::Puck;
         }
-        let eraser_bit = self.profile.surface.eraser_bit;
+        let eraser_bit = self.profile.wacom.as_ref().map_or(0, |w| w.eraser_bit);
         let shared = usize::from(eraser_bit) <= usize::from(self.buttons_of(ToolKind::Pen));
         match self.held {
             Some(PenSample {
@@ -125,11 +125,7 @@ impl WacomIv {
     }
 
     fn buttons_of(&self, kind: ToolKind) -> u8 {
-        self.profile
-            .tools
-            .iter()
-            .find(|t| t.tool == kind)
-            .map_or(0, |t| t.buttons)
+        self.profile.tool_buttons(kind)
     }
 
     fn sample(&self, raw: Raw, tool: Tool) -> PenSample {
@@ -254,13 +250,14 @@ impl Codec for WacomIv {
     }
 }
 
-fn surface_of(profile: &TabletProfile) -> Surface {
-    // Counts are at most 65535 and lines per inch far below: the profile's check says so.
-    let narrow = |pair: [u32; 2]| pair.map(|n| u16::try_from(n).unwrap_or(u16::MAX));
+fn surface_of(profile: &InputProfile) -> Surface {
+    // Packets have 16 bits for counts; lines per inch lie far below.
+    let narrow = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
+    let area = profile.area();
     Surface {
-        max_counts: narrow(profile.surface.counts),
-        counts_per_inch: narrow(profile.surface.counts_per_inch),
-        pressure_max: profile.surface.pressure,
+        max_counts: area.counts.map(narrow),
+        counts_per_inch: area.counts_per_inch.unwrap_or_default().map(narrow),
+        pressure_max: narrow(area.pressure),
     }
 }
 

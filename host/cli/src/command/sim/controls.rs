@@ -68,17 +68,29 @@ struct Common {
 pub(super) fn dial_box(args: &DialBoxArgs, console: &Console) -> Result<Exit, Failure> {
     let profiles = setup::profiles()?;
     let profile = profiles
-        .knobs(&args.kind)
+        .input(&args.kind)
         .map_err(|error| Failure::refused(error.to_string()))?;
+    refuse_other_formats(&profile.key, &profile.format, "sgi-dial-box")?;
     play(Served::dial_box(profile), &args.common, console)
 }
 
 pub(super) fn tablet(args: &TabletArgs, console: &Console) -> Result<Exit, Failure> {
     let profiles = setup::profiles()?;
     let profile = profiles
-        .tablet(&args.kind)
+        .input(&args.kind)
         .map_err(|error| Failure::refused(error.to_string()))?;
+    refuse_other_formats(&profile.key, &profile.format, "wacom-iv")?;
     play(Served::tablet(profile), &args.common, console)
+}
+
+/// The simulated firmware speaks one format only.
+fn refuse_other_formats(key: &str, speaks: &str, wanted: &str) -> Result<(), Failure> {
+    if speaks == wanted {
+        return Ok(());
+    }
+    Err(Failure::refused(format!(
+        "{key} speaks {speaks}; expected a profile of format {wanted}"
+    )))
 }
 
 fn play(mut device: Served, args: &Common, console: &Console) -> Result<Exit, Failure> {

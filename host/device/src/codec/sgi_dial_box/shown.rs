@@ -1,7 +1,7 @@
 //! What the box shows, and what it should: only differences are sent.
 
 use crate::codec::{Feedback, Outgoing};
-use device_profiles::{KnobsProfile, Labels};
+use device_profiles::{InputProfile, OutputKind};
 use std::collections::BTreeMap;
 
 /// Lamps: four bytes, lamps 0–7 first, bit 0 of each its first lamp.
@@ -13,7 +13,9 @@ const LABEL: u8 = 0x61;
 #[derive(Debug)]
 pub(super) struct Shown {
     lamps_mask: u32,
-    labels: Option<Labels>,
+    /// Number of displays, and characters on each.
+    labels: u16,
+    characters: usize,
     lamps: u32,
     lamps_sent: Option<u32>,
     text: BTreeMap<u8, Vec<u8>>,
@@ -21,10 +23,11 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    pub(super) fn new(profile: &KnobsProfile) -> Self {
+    pub(super) fn new(profile: &InputProfile) -> Self {
         Self {
-            lamps_mask: super::low_bits(profile.lamps),
-            labels: profile.labels,
+            lamps_mask: super::low_bits(profile.output_count(OutputKind::Lamp).min(32) as u8),
+            labels: profile.output_count(OutputKind::Label),
+            characters: profile.label_characters().into(),
             lamps: 0,
             lamps_sent: None,
             text: BTreeMap::new(),
@@ -37,9 +40,8 @@ impl Shown {
         match feedback {
             Feedback::Lamps(mask) => self.lamps = mask & self.lamps_mask,
             Feedback::Label { control, text } => {
-                let Some(labels) = self.labels else { return };
-                if *control < labels.dials.saturating_add(labels.keys) {
-                    self.text.insert(*control, padded(text, labels.characters.into()));
+                if u16::from(*control) < self.labels {
+                    self.text.insert(*control, padded(text, self.characters));
                 }
             }
         }

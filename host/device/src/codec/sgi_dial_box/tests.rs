@@ -1,9 +1,9 @@
 use super::*;
-use device_profiles::Profiles;
+use device_profiles::{InputProfile, Profiles, Sgi};
 use proptest::prelude::*;
 
-fn profile(name: &str) -> KnobsProfile {
-    Profiles::builtin().knobs(name).unwrap().clone()
+fn profile(name: &str) -> InputProfile {
+    Profiles::builtin().input(name).unwrap().clone()
 }
 
 /// A codec and the time, with everything it says.
@@ -111,8 +111,10 @@ fn counts_become_differences_that_wrap_in_sixteen_bits() {
 
 #[test]
 fn a_box_that_does_not_begin_at_zero_gives_a_reference_first() {
-    let profile = KnobsProfile {
-        counts_start_at_zero: false,
+    let profile = InputProfile {
+        sgi: Some(Sgi {
+            counts_start_at_zero: false,
+        }),
         ..profile("sgi-dialbox")
     };
     let mut codec = SgiDialBox::listening(&profile);

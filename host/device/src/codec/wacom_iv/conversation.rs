@@ -3,7 +3,7 @@
 use super::answer::Question;
 use crate::clock::Instant;
 use crate::codec::Outgoing;
-use device_profiles::TabletProfile;
+use device_profiles::InputProfile;
 use std::time::Duration;
 
 /// The tablet may stand at any of these speeds (inputattach tries them in this order).
@@ -132,7 +132,7 @@ impl Conversation {
     pub(super) fn advance(
         &mut self,
         now: Instant,
-        profile: &TabletProfile,
+        profile: &InputProfile,
         tilt: bool,
         out: &mut Outgoing,
     ) -> bool {
@@ -161,7 +161,9 @@ impl Conversation {
             _ => return false,
         };
         let next = match asked {
-            Question::Identity if profile.identify.answers_size => Some(Question::Size),
+            Question::Identity if profile.wacom.as_ref().is_some_and(|w| w.answers_size) => {
+                Some(Question::Size)
+            }
             Question::Size => Some(Question::Resolution),
             Question::Identity | Question::Resolution => None,
         };
@@ -175,8 +177,8 @@ impl Conversation {
     }
 }
 
-fn set_up(profile: &TabletProfile, tilt: bool, out: &mut Outgoing) {
-    if profile.identify.prefix == "CT" {
+fn set_up(profile: &InputProfile, tilt: bool, out: &mut Outgoing) {
+    if profile.answer_prefix() == "CT" {
         out.bytes(SET_UP_PEN_PARTNER);
     } else {
         out.bytes(SET_UP);

@@ -1,7 +1,7 @@
 //! Packets of seven bytes, nine with tilt, out of a stream. Only a packet's first byte has bit 7.
 
 use super::answer::Identity;
-use device_profiles::TabletProfile;
+use device_profiles::InputProfile;
 
 /// What the bits of a packet mean on this tablet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,14 +15,14 @@ pub(super) struct Format {
 impl Format {
     /// The profile's, as far as the tablet's ROM goes: on the Digitizer II eight bits of pressure came with
     /// 1.2, tilt with 1.4.
-    pub(super) fn new(profile: &TabletProfile, identity: Option<&Identity>) -> Self {
+    pub(super) fn new(profile: &InputProfile, identity: Option<&Identity>) -> Self {
         let version = identity.and_then(|i| i.version);
         let older_than = |than| version.is_some_and(|v| v < than);
-        let old_digitizer = profile.identify.prefix == "UD" && older_than((1, 2));
+        let old_digitizer = profile.answer_prefix() == "UD" && older_than((1, 2));
         let pressure_max = if old_digitizer {
             120
         } else {
-            profile.surface.pressure
+            u16::try_from(profile.area().pressure).unwrap_or(u16::MAX)
         };
         let extra_bits = match pressure_max {
             0..=127 => 0,
@@ -30,7 +30,7 @@ impl Format {
             _ => 2,
         };
         Self {
-            tilt: profile.surface.tilt && !older_than((1, 4)),
+            tilt: profile.area().tilt() && !older_than((1, 4)),
             pressure_max,
             extra_bits,
         }

@@ -1,10 +1,10 @@
 use super::*;
 use crate::codec::Step;
-use device_profiles::Profiles;
+use device_profiles::{InputProfile, Profiles};
 use proptest::prelude::*;
 
-fn profile(name: &str) -> TabletProfile {
-    Profiles::builtin().tablet(name).unwrap().clone()
+fn profile(name: &str) -> InputProfile {
+    Profiles::builtin().input(name).unwrap().clone()
 }
 
 fn heard(codec: &mut WacomIv, bytes: &[u8]) -> Vec<InputEvent> {
@@ -178,11 +178,11 @@ fn every_field_of_a_pen_packet_is_found() {
 #[test]
 fn pressure_has_as_many_bits_as_the_model() {
     let mut graphire = WacomIv::listening(&profile("graphire-serial"));
-    let mut digitizer = WacomIv::listening(&TabletProfile {
-        surface: device_profiles::Surface {
-            tilt: false,
-            ..profile("digitizer-ii").surface
-        },
+    let mut digitizer = WacomIv::listening(&InputProfile {
+        surface: Some(device_profiles::Surface {
+            tilt_steps_per_rad: None,
+            ..profile("digitizer-ii").area()
+        }),
         ..profile("digitizer-ii")
     });
     // b0 bit 2, b3 bit 2, b6: nine bits on the Graphire, the upper eight of them on the Digitizer II.

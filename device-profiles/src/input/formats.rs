@@ -1,0 +1,19 @@
+//! The wire formats there are.
+
+/// Every format that a profile may name, in alphabetical order. Each has a page `docs/protocols/FORMAT.md` and a
+/// codec on the host's side.
+pub const FORMATS: &[&str] = &[
+    "calcomp",
+    "deej",
+    "firmata",
+    "gtco",
+    "hid",
+    "midi",
+    "mm",
+    "monome-arc",
+    "osc",
+    "sgi-dial-box",
+    "stream-deck",
+    "wacom-iv",
+    "wacom-v",
+];
