@@ -227,8 +227,8 @@ fn contradictions_in_servos_are_refused_at_their_place() {
 #[test]
 fn all_errors_are_said_and_not_only_the_first() {
     let text = KNOBS
-        .replace("lamps = 32", "lamps = 33")
-        .replace("dials = 8", "dials = 17");
+        .replace("count = 32", "count = 33")
+        .replace("count = 8", "count = 17");
     assert_eq!(read_own("all", &text).unwrap_err().len(), 2);
 }
 
