@@ -7,15 +7,19 @@
 //! cannot agree with itself. It reads no clock, opens no port and keeps no thread: time comes in as `now_us`,
 //! and how the calls are cut up does not change a byte.
 //!
-//! Start at [`Firmware`], then [`dial_box`] (the smallest device), [`wacom_iv`], and [`servo_bus`], where
+//! Start at [`Firmware`] (a serial cable) and [`UsbDevice`] (what a host controller sees), then [`dial_box`] (the smallest device), [`wacom_iv`], and [`servo_bus`], where
 //! `bus.rs` orders the events on the wire and `servo.rs` is one servo. [`script`] plays hands from a text.
 pub mod dial_box;
 mod firmware;
 pub mod hands;
 mod line;
+pub mod powermate;
 pub mod script;
 pub mod servo_bus;
+pub mod shuttle_pro;
+pub mod space_mouse;
 mod uart;
+pub mod usb_device;
 pub mod wacom_iv;
 
 pub use dial_box::SgiDialBox;
@@ -23,4 +27,5 @@ pub use firmware::Firmware;
 pub use script::Script;
 pub use servo_bus::{Fault, ServoBus};
 pub use uart::Parity;
+pub use usb_device::UsbDevice;
 pub use wacom_iv::WacomIv;
