@@ -345,7 +345,12 @@ impl SgiDialBox {
                 self.line.device_sends(at_ns, &noise(bytes));
                 true
             }
-            Touch::Axis { .. } | Touch::Pen(_) | Touch::Puck(_) | Touch::Away | Touch::Lift(_) => false,
+            Touch::Axis { .. }
+            | Touch::Ring { .. }
+            | Touch::Pen(_)
+            | Touch::Puck(_)
+            | Touch::Away
+            | Touch::Lift(_) => false,
         }
     }
 }

@@ -33,6 +33,13 @@ pub enum Touch {
         /// Duration in microseconds.
         over_us: u64,
     },
+    /// Lays a finger on a ring or strip, or lifts it.
+    Ring {
+        /// Number as on the device.
+        control: u8,
+        /// Where, as a share of the way round or along, 0 to 1; none: no finger.
+        at: Option<f64>,
+    },
     /// Pulls the plug and puts it back.
     PowerCycle,
     /// Nobody's doing: so many bytes of nonsense reach the host, as from a loose plug.

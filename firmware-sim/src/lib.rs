@@ -7,19 +7,25 @@
 //! cannot agree with itself. It reads no clock, opens no port and keeps no thread: time comes in as `now_us`,
 //! and how the calls are cut up does not change a byte.
 //!
-//! Start at [`Firmware`] (a serial cable) and [`UsbDevice`] (what a host controller sees), then [`dial_box`] (the smallest device), [`wacom_iv`], and [`servo_bus`], where
-//! `bus.rs` orders the events on the wire and `servo.rs` is one servo. [`script`] plays hands from a text.
+//! Start at [`Firmware`] (a serial cable) and [`UsbDevice`] (what a host controller sees), then [`dial_box`] (the
+//! smallest device), [`wacom_iv`], and [`servo_bus`], where `bus.rs` orders the events on the wire and `servo.rs` is
+//! one servo. [`script`] plays hands from a text.
+pub mod ctl_472;
+pub mod deco_01_v2;
 pub mod dial_box;
 mod firmware;
 pub mod hands;
+pub mod hs610;
 mod line;
 pub mod powermate;
+pub mod pth_660;
 pub mod script;
 pub mod servo_bus;
 pub mod shuttle_pro;
 pub mod space_mouse;
 mod uart;
 pub mod usb_device;
+mod usb_kinds;
 pub mod wacom_iv;
 
 pub use dial_box::SgiDialBox;
@@ -28,4 +34,5 @@ pub use script::Script;
 pub use servo_bus::{Fault, ServoBus};
 pub use uart::Parity;
 pub use usb_device::UsbDevice;
+pub use usb_kinds::{USB_KINDS, UsbKind, usb_kind};
 pub use wacom_iv::WacomIv;

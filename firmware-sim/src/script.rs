@@ -21,6 +21,13 @@ pub enum Device {
     },
     /// Pen and puck.
     Tablet,
+    /// A tablet with a pen and these controls on its pad.
+    Pad {
+        /// Keys.
+        keys: u8,
+        /// Rings and strips.
+        rings: u8,
+    },
 }
 
 impl Device {

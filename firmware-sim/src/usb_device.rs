@@ -10,6 +10,7 @@ pub(crate) mod chassis;
 mod descriptor;
 mod facts;
 mod fault;
+pub(crate) mod pad;
 mod ramps;
 mod waiting;
 

@@ -263,7 +263,9 @@ impl WacomIv {
                 self.line.device_sends(self.reached_ns, &noise(*bytes));
                 return true;
             }
-            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } => return false,
+            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } | Touch::Ring { .. } => {
+                return false;
+            }
         };
         let before = self.pointer;
         self.pointer = next;

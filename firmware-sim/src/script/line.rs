@@ -31,7 +31,9 @@ pub(super) fn parse(device: Device, text: &str) -> Result<Option<Action>, LineFa
         (Device::Controls { dials, .. }, "dial") if dials > 0 => dial(&mut words, dials - 1)?,
         (Device::Controls { buttons, .. }, "button") if buttons > 0 => button(&mut words, buttons - 1)?,
         (Device::Controls { axes, .. }, "axis") if axes > 0 => axis(&mut words, axes - 1)?,
-        (Device::Tablet, "pen") => pen(&mut words)?,
+        (Device::Pad { keys, .. }, "button") if keys > 0 => button(&mut words, keys - 1)?,
+        (Device::Pad { rings, .. }, "ring") if rings > 0 => ring(&mut words, rings - 1)?,
+        (Device::Tablet | Device::Pad { .. }, "pen") => pen(&mut words)?,
         (Device::Tablet, "puck") => puck(&mut words)?,
         _ => {
             let known = actions(device).join(", ");
@@ -49,14 +51,22 @@ pub(super) fn parse(device: Device, text: &str) -> Result<Option<Action>, LineFa
 fn actions(device: Device) -> Vec<&'static str> {
     let mut known = match device {
         Device::Tablet => vec!["pen", "puck"],
-        Device::Controls { dials, buttons, axes } => [(dials, "dial"), (buttons, "button"), (axes, "axis")]
-            .into_iter()
-            .filter(|&(count, _)| count > 0)
-            .map(|(_, verb)| verb)
-            .collect(),
+        Device::Pad { keys, rings } => present(&[(1, "pen"), (keys, "button"), (rings, "ring")]),
+        Device::Controls { dials, buttons, axes } => {
+            present(&[(dials, "dial"), (buttons, "button"), (axes, "axis")])
+        }
     };
     known.push("power-cycle");
     known
+}
+
+/// The words of what there is at least one of.
+fn present(counted: &[(u8, &'static str)]) -> Vec<&'static str> {
+    counted
+        .iter()
+        .filter(|&&(count, _)| count > 0)
+        .map(|&(_, verb)| verb)
+        .collect()
 }
 
 fn dial(words: &mut Words<'_>, last: u8) -> Result<Touch, LineFault> {
@@ -80,6 +90,16 @@ fn axis(words: &mut Words<'_>, last: u8) -> Result<Touch, LineFault> {
     let to = words.number("a share of its travel", -1.0, 1.0)?;
     let over_us = duration(words)?;
     Ok(Touch::Axis { control, to, over_us })
+}
+
+fn ring(words: &mut Words<'_>, last: u8) -> Result<Touch, LineFault> {
+    let control = words.whole("a ring", 0, last)?;
+    let at = if words.take("off") {
+        None
+    } else {
+        Some(words.number("a share of the way round, or `off`", 0.0, 1.0)?)
+    };
+    Ok(Touch::Ring { control, at })
 }
 
 fn duration(words: &mut Words<'_>) -> Result<u64, LineFault> {

@@ -170,3 +170,36 @@ fn a_box_of_faders_knows_axes_and_no_dials() {
         assert!(errors[0].message.contains(part), "{text}: {}", errors[0]);
     }
 }
+
+#[test]
+fn a_tablet_with_a_pad_knows_keys_and_rings_and_no_puck() {
+    let pad = Device::Pad { keys: 8, rings: 1 };
+    let script = Script::parse(pad, "at 0 ring 0 0.25\nat 1 ring 0 off\nat 2 button 7 down").expect("reads");
+    let touches: Vec<Touch> = script.actions.into_iter().map(|action| action.touch).collect();
+    let ring = |at| Touch::Ring { control: 0, at };
+    let key = Touch::Button {
+        control: 7,
+        down: true,
+    };
+    assert_eq!(touches, [ring(Some(0.25)), ring(None), key]);
+    let table = [
+        (
+            "at 0 puck 0 0",
+            6,
+            "expected pen, button, ring, power-cycle or noise",
+        ),
+        ("at 0 button 8 down", 13, "a button, 0 to 7"),
+        ("at 0 ring 0 up", 13, "or `off`"),
+    ];
+    for (text, column, part) in table {
+        let errors = Script::parse(pad, text).expect_err(text);
+        assert_eq!(errors[0].column, column, "{text}: {}", errors[0]);
+        assert!(errors[0].message.contains(part), "{text}: {}", errors[0]);
+    }
+    let errors = Script::parse(Device::Pad { keys: 0, rings: 0 }, "at 0 button 0 down").expect_err("no keys");
+    assert!(
+        errors[0].message.contains("expected pen, power-cycle or noise"),
+        "{}",
+        errors[0]
+    );
+}

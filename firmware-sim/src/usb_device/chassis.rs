@@ -235,8 +235,9 @@ impl<D: Inside> Chassis<D> {
         let floods = self.faults.flood_begins_slot(now_us);
         let report = self.faults.early().or_else(|| self.inside.take_report());
         let report = report.or_else(|| floods.then(|| self.inside.same_again()).flatten());
-        self.next_slot_us = now_us + self.inside.interval_us();
+        // What leaves nothing on the wire takes no slot of it.
         let Some(report) = report else { return };
+        self.next_slot_us = now_us + self.inside.interval_us();
         for report in self.faults.mangle(report) {
             if self.listened >> u32::from(report.interface).min(31) & 1 == 0 {
                 continue;
@@ -252,6 +253,11 @@ impl<D: Inside> Chassis<D> {
         if *touch == Touch::PowerCycle {
             self.inside.lose_power();
             self.leave_bus();
+            return true;
+        }
+        if let Touch::Noise(_) = touch {
+            self.faults
+                .add(self.reached_us, self.facts.main, UsbFault::Garbage);
             return true;
         }
         at_a_moment!(self, at, self.inside.touch(&mut at, touch))
@@ -355,9 +361,10 @@ impl<D: Inside> UsbDevice for Chassis<D> {
     fn string(&mut self, now_us: u64, index: u8) -> Result<Vec<u8>, Stall> {
         self.asked(now_us)?;
         let usual = self.facts.usual_string(index);
-        let done = match usual {
-            Some(bytes) => Ok(bytes),
-            None => at_a_moment!(self, at, self.inside.string(&mut at, index)),
+        let done = if let Some(bytes) = usual {
+            Ok(bytes)
+        } else {
+            at_a_moment!(self, at, self.inside.string(&mut at, index))
         };
         self.begin_script();
         done

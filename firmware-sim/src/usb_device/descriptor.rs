@@ -10,6 +10,8 @@ pub(crate) struct Descriptor {
 
 /// Constant bits, which carry nothing.
 const CONSTANT: u32 = 0x03;
+/// Fields that each name one of the usages.
+const ARRAY: u32 = 0x00;
 /// One field, absolute.
 const ABSOLUTE: u32 = 0x02;
 /// One field, relative.
@@ -69,6 +71,14 @@ impl Descriptor {
             .item(0x28, u32::from(last))
             .fields(1, u32::from(last - first) + 1, [0, 1])
             .item(0x80, ABSOLUTE)
+    }
+
+    /// `count` input bytes, each the usage of a key that is down or 0.
+    pub(crate) fn keys(self, count: u32) -> Self {
+        self.item(0x18, 0)
+            .item(0x28, 0xFF)
+            .fields(8, count, [0, 255])
+            .item(0x80, ARRAY)
     }
 
     /// Input bits that carry nothing.

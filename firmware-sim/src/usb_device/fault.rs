@@ -83,9 +83,10 @@ pub(super) struct Faults {
 
 #[derive(Clone, Copy, Debug)]
 struct Flood {
-    every_us: u64,
-    next_us: u64,
-    until_us: u64,
+    /// Microseconds, as are the rest.
+    period: u64,
+    next: u64,
+    until: u64,
 }
 
 impl Faults {
@@ -97,9 +98,9 @@ impl Faults {
             }),
             UsbFault::Flood { hz, for_us } => {
                 self.flood = Some(Flood {
-                    every_us: (1_000_000 / u64::from(hz.max(1))).max(1),
-                    next_us: now_us,
-                    until_us: now_us + for_us,
+                    period: (1_000_000 / u64::from(hz.max(1))).max(1),
+                    next: now_us,
+                    until: now_us + for_us,
                 });
             }
             UsbFault::UnplugAfterRequests(count) => self.requests_left = Some(count),
@@ -132,7 +133,7 @@ impl Faults {
     }
 
     pub(super) fn flood_slot_us(&self) -> Option<u64> {
-        self.flood.map(|flood| flood.next_us)
+        self.flood.map(|flood| flood.next)
     }
 
     /// Whether a slot of a flood is due; it moves on to its next.
@@ -140,11 +141,11 @@ impl Faults {
         let Some(flood) = &mut self.flood else {
             return false;
         };
-        if flood.next_us > now_us {
+        if flood.next > now_us {
             return false;
         }
-        flood.next_us += flood.every_us;
-        if flood.next_us >= flood.until_us {
+        flood.next += flood.period;
+        if flood.next >= flood.until {
             self.flood = None;
         }
         true

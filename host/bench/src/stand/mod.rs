@@ -147,6 +147,7 @@ impl Stand {
             Touch::Dial { control, .. } => format!("dial {control}"),
             Touch::Button { control, .. } => format!("button {control}"),
             Touch::Axis { control, .. } => format!("axis {control}"),
+            Touch::Ring { control, .. } => format!("ring {control}"),
             Touch::PowerCycle => "switch".to_owned(),
             Touch::Noise(_) => "plug to rattle at".to_owned(),
             Touch::Pen(_) | Touch::Puck(_) | Touch::Away | Touch::Lift(_) => "surface".to_owned(),
