@@ -204,6 +204,7 @@ fn tame(event: &InputEvent) {
         InputEvent::Button { control, .. } => assert!(control < 32, "{event:?}"),
         InputEvent::Pen(sample) => assert!(sample.in_range || (!sample.tip && sample.buttons == 0)),
         InputEvent::Started | InputEvent::Restarted => {}
+        _ => panic!("{event:?} from a device that has nothing of the kind"),
     }
 }
 

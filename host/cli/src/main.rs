@@ -8,6 +8,7 @@
 mod args;
 mod command;
 mod console;
+mod event_lines;
 mod failure;
 mod guard;
 mod input;

@@ -54,7 +54,7 @@ impl Desk {
                 ) {
                     dial.turns += turns;
                     *moved = Some(now_secs);
-                    emit("DIALS", control + 1, Value::Real(turns));
+                    emit("DIALS", *control as u8 + 1, Value::Real(turns));
                 }
             }
             InputEvent::Button { control, down } => {
@@ -70,7 +70,14 @@ impl Desk {
                 }
             }
             InputEvent::Pen(sample) => self.hear_tablet(sample, source.surface, emit),
-            InputEvent::Started | InputEvent::Restarted => {}
+            // Of the rest the original's devices have nothing.
+            InputEvent::Started
+            | InputEvent::Restarted
+            | InputEvent::Moved { .. }
+            | InputEvent::Touch { .. }
+            | InputEvent::Axis { .. }
+            | InputEvent::AxisTouched { .. }
+            | InputEvent::Ring { .. } => {}
         }
     }
 
@@ -121,16 +128,15 @@ fn button_code(sample: &PenSample) -> i32 {
         return 0;
     }
     match sample.tool {
-        Tool::Puck => i32::from(sample.buttons & 15),
-        Tool::Pen | Tool::Eraser => i32::from(sample.tip) | i32::from(sample.buttons & 7) << 1,
+        Tool::Puck | Tool::Mouse => (sample.buttons & 15) as i32,
+        Tool::Pen | Tool::Eraser => i32::from(sample.tip) | ((sample.buttons & 7) << 1) as i32,
     }
 }
 
 fn tablet_position(sample: &PenSample, surface: Surface) -> DVec2 {
-    let inches =
-        |axis: usize| f64::from(surface.max_counts[axis]) / f64::from(surface.counts_per_inch[axis].max(1));
+    let inches = |axis: usize| f64::from(surface.max_counts[axis]) / surface.counts_per_inch[axis].max(1.0);
     let half_long_side = inches(0).max(inches(1)).max(f64::MIN_POSITIVE) / 2.0;
-    let from_middle = |counts: u16, axis: usize| {
+    let from_middle = |counts: u32, axis: usize| {
         let share = f64::from(counts) / f64::from(surface.max_counts[axis].max(1));
         (share - 0.5) * inches(axis) / half_long_side
     };
@@ -145,27 +151,17 @@ fn tablet_position(sample: &PenSample, surface: Surface) -> DVec2 {
 mod tests {
     use super::*;
 
-    const SURFACE: Surface = Surface {
-        max_counts: [4000, 2000],
-        counts_per_inch: [1000, 1000],
-        pressure_max: 255,
-    };
+    const SURFACE: Surface = Surface::flat([4000, 2000], [1000.0, 1000.0], 255);
     const SOURCE: Source = Source {
         counts_per_turn: 200.0,
         surface: Some(SURFACE),
     };
 
-    fn puck(x_counts: u16, y_counts: u16, buttons: u8, in_range: bool) -> InputEvent {
+    fn puck(x_counts: u32, y_counts: u32, buttons: u32, in_range: bool) -> InputEvent {
         InputEvent::Pen(PenSample {
-            tool: Tool::Puck,
-            x_counts,
-            y_counts,
-            pressure_counts: 0,
             buttons,
             in_range,
-            tip: false,
-            tilt: None,
-            wheel: 0,
+            ..PenSample::hovering(Tool::Puck, x_counts, y_counts)
         })
     }
 

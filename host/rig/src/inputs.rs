@@ -243,7 +243,7 @@ impl Seat {
         if lamps != self.shown.lamps {
             self.shown.lamps = lamps;
             // A line that is gone is found out by the next poll.
-            let _ = device.show(&Feedback::Lamps(lamps));
+            let _ = device.show(&Feedback::Lamps(lamps.into()));
         }
         for (control, label) in labels.enumerate() {
             if self.shown.labels.len() == control {
@@ -252,7 +252,7 @@ impl Seat {
             if self.shown.labels[control] != label {
                 label.clone_into(&mut self.shown.labels[control]);
                 let _ = device.show(&Feedback::Label {
-                    control: control as u8,
+                    control: control as u16,
                     text: label.to_owned(),
                 });
             }

@@ -29,6 +29,7 @@ pub mod shipped;
 pub mod snapshot;
 mod stage;
 mod system;
+pub mod telling;
 mod timeline;
 mod view;
 pub mod ward;

@@ -4,65 +4,23 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use device::clock::{Clock, Instant};
-use device::codec::{InputEvent, Stamped, Tool};
+pub use device::codec::InputEvent;
+use device::codec::Stamped;
 use device::transport::TransportError;
 use device::{Device, Health, UnknownFormat};
 use device_profiles::Profiles;
 
 use crate::inputs::known_profiles;
 use crate::ports::Ports;
+use crate::telling::{Buttons, Teller};
 
 /// Something a device said, in its own counts and numbering.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heard {
     /// Seconds since listening began.
     pub at_secs: f64,
     /// What.
-    pub what: HeardEvent,
-}
-
-/// One event.
-#[derive(Clone, Debug, PartialEq)]
-pub enum HeardEvent {
-    /// A tool on or over a tablet.
-    Sample {
-        /// `pen`, `eraser` or `puck`.
-        tool: &'static str,
-        /// Counts from the left edge.
-        x: u16,
-        /// Counts from the upper edge, downwards.
-        y: u16,
-        /// Counts; `None` for a puck.
-        pressure: Option<u16>,
-        /// Steps, x and y, where the tablet says.
-        tilt: Option<[i8; 2]>,
-        /// Clicks of a puck's wheel.
-        wheel: i8,
-        /// Whether the tool is in reach.
-        in_range: bool,
-        /// Whether the tip is down.
-        tip: bool,
-        /// Buttons, lowest bit first.
-        buttons: u8,
-    },
-    /// A dial turned by so many counts.
-    Dial {
-        /// From 0.
-        control: u8,
-        /// Clockwise positive.
-        delta: i32,
-    },
-    /// A button changed.
-    Button {
-        /// From 0.
-        control: u8,
-        /// Pressed.
-        down: bool,
-    },
-    /// The device answered for the first time, with what it calls itself.
-    Started(Option<String>),
-    /// The device was switched off and on.
-    Restarted,
+    pub what: InputEvent,
 }
 
 /// A device cannot be listened to.
@@ -129,7 +87,7 @@ impl Listener {
             let at_secs = event.at.since(self.began).as_secs_f64();
             hear(Heard {
                 at_secs,
-                what: self.heard(&event.what),
+                what: event.what,
             });
         }
         if health == Health::Lost {
@@ -149,33 +107,17 @@ impl Listener {
         [counters.reports, counters.unknown, counters.rejected]
     }
 
-    fn heard(&self, event: &InputEvent) -> HeardEvent {
-        match *event {
-            InputEvent::Pen(sample) => HeardEvent::Sample {
-                tool: match sample.tool {
-                    Tool::Pen => "pen",
-                    Tool::Eraser => "eraser",
-                    Tool::Puck => "puck",
-                },
-                x: sample.x_counts,
-                y: sample.y_counts,
-                pressure: (sample.tool != Tool::Puck).then_some(sample.pressure_counts),
-                tilt: sample.tilt,
-                wheel: sample.wheel,
-                in_range: sample.in_range,
-                tip: sample.tip,
-                buttons: sample.buttons,
-            },
-            InputEvent::Dial {
-                control,
-                delta_counts,
-            } => HeardEvent::Dial {
-                control,
-                delta: delta_counts,
-            },
-            InputEvent::Button { control, down } => HeardEvent::Button { control, down },
-            InputEvent::Started => HeardEvent::Started(self.device.identity().map(str::to_owned)),
-            InputEvent::Restarted => HeardEvent::Restarted,
-        }
+    /// What the device calls itself, once it has said so.
+    pub fn identity(&self) -> Option<&str> {
+        self.device.identity()
+    }
+
+    /// How its events are named.
+    pub fn teller(&self) -> Teller {
+        Teller::new(if self.device.surface().is_some() {
+            Buttons::Keys
+        } else {
+            Buttons::Numbered
+        })
     }
 }

@@ -174,7 +174,7 @@ fn our_codec_hears_the_same() {
                 } => {
                     heard.turned[usize::from(control)] += delta_counts;
                 }
-                InputEvent::Button { control, down } => heard.pressed.push((control, down)),
+                InputEvent::Button { control, down } => heard.pressed.push((control as u8, down)),
                 _ => {}
             }
         }

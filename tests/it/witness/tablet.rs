@@ -398,16 +398,16 @@ fn our_codec_sees_the_same() {
                         end: match sample.tool {
                             Tool::Pen => End::Pen,
                             Tool::Eraser => End::Eraser,
-                            Tool::Puck => End::Puck,
+                            Tool::Puck | Tool::Mouse => End::Puck,
                         },
                         in_range: sample.in_range,
-                        x: sample.x_counts,
-                        y: sample.y_counts,
-                        pressure: sample.pressure_counts,
+                        x: sample.x_counts as u16,
+                        y: sample.y_counts as u16,
+                        pressure: sample.pressure_counts as u16,
                         tip: sample.tip,
-                        buttons: sample.buttons,
-                        wheel: sample.wheel,
-                        tilt: sample.tilt,
+                        buttons: sample.buttons as u8,
+                        wheel: sample.wheel as i8,
+                        tilt: sample.tilt.map(|tilt| tilt.map(|steps| steps as i8)),
                     });
                 }
             }

@@ -6,7 +6,7 @@ mod outgoing;
 pub mod sgi_dial_box;
 pub mod wacom_iv;
 
-pub use event::{Feedback, InputEvent, PenSample, Stamped, Surface, Tool};
+pub use event::{Feedback, InputEvent, PenSample, Picture, RingStyle, Stamped, Surface, Tool};
 pub use outgoing::{Outgoing, Step};
 
 use crate::clock::Instant;

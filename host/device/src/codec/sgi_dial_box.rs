@@ -148,7 +148,7 @@ impl SgiDialBox {
             } => {
                 self.counters.reports += 1;
                 emit(InputEvent::Dial {
-                    control,
+                    control: control.into(),
                     delta_counts: delta_counts.into(),
                 });
             }
@@ -156,7 +156,10 @@ impl SgiDialBox {
                 self.counters.reports += 1;
                 let bit = 1 << control;
                 self.down = if down { self.down | bit } else { self.down & !bit };
-                emit(InputEvent::Button { control, down });
+                emit(InputEvent::Button {
+                    control: control.into(),
+                    down,
+                });
             }
             Report::Button { .. } => self.counters.rejected += 1,
             Report::Unknown => self.counters.unknown += 1,
@@ -173,7 +176,7 @@ impl SgiDialBox {
         *before = Some(count);
         if delta != 0 {
             emit(InputEvent::Dial {
-                control,
+                control: control.into(),
                 delta_counts: delta.into(),
             });
         }

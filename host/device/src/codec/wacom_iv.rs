@@ -83,11 +83,11 @@ impl WacomIv {
                     self.counters.rejected += 1;
                 }
                 self.packets = Packets::new(Format::new(&self.profile, Some(&identity)));
-                self.surface.pressure_max = self.packets.format().pressure_max;
+                self.surface.pressure_max = self.packets.format().pressure_max.into();
                 self.identity = Some(identity);
             }
-            answer::Answer::Size(counts) => self.surface.max_counts = counts,
-            answer::Answer::Resolution(lines) => self.surface.counts_per_inch = lines,
+            answer::Answer::Size(counts) => self.surface.max_counts = counts.map(u32::from),
+            answer::Answer::Resolution(lines) => self.surface.counts_per_inch = lines.map(f64::from),
         }
     }
 
@@ -132,7 +132,7 @@ impl WacomIv {
         let (kind, side_buttons) = match tool {
             Tool::Pen => (ToolKind::Pen, raw.buttons >> 1),
             Tool::Eraser => (ToolKind::Eraser, raw.buttons >> 1),
-            Tool::Puck => (ToolKind::Puck, raw.buttons),
+            Tool::Puck | Tool::Mouse => (ToolKind::Puck, raw.buttons),
         };
         let stylus = tool != Tool::Puck;
         // Bits of buttons that the tool does not have mean something else, as the eraser's does.
@@ -143,15 +143,12 @@ impl WacomIv {
             .iter()
             .any(|t| t.tool == ToolKind::Puck && t.wheel == Some(true));
         PenSample {
-            tool,
-            x_counts: raw.x,
-            y_counts: raw.y,
-            pressure_counts: if stylus { raw.pressure } else { 0 },
-            buttons: side_buttons & there as u8,
-            in_range: true,
+            pressure_counts: if stylus { raw.pressure.into() } else { 0 },
+            buttons: (side_buttons & there as u8).into(),
             tip: stylus && raw.buttons & 1 == 1,
-            tilt: raw.tilt.filter(|_| stylus),
-            wheel: if !stylus && has_wheel { raw.wheel } else { 0 },
+            tilt: raw.tilt.filter(|_| stylus).map(|tilt| tilt.map(i16::from)),
+            wheel: if !stylus && has_wheel { raw.wheel.into() } else { 0 },
+            ..PenSample::hovering(tool, raw.x.into(), raw.y.into())
         }
     }
 
@@ -221,15 +218,7 @@ impl Codec for WacomIv {
 
     fn let_go(&mut self, emit: &mut dyn FnMut(InputEvent)) {
         if let Some(held) = self.held.take() {
-            emit(InputEvent::Pen(PenSample {
-                pressure_counts: 0,
-                buttons: 0,
-                in_range: false,
-                tip: false,
-                tilt: None,
-                wheel: 0,
-                ..held
-            }));
+            emit(InputEvent::Pen(held.leaving()));
         }
     }
 
@@ -251,14 +240,8 @@ impl Codec for WacomIv {
 }
 
 fn surface_of(profile: &InputProfile) -> Surface {
-    // Packets have 16 bits for counts; lines per inch lie far below.
-    let narrow = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
     let area = profile.area();
-    Surface {
-        max_counts: area.counts.map(narrow),
-        counts_per_inch: area.counts_per_inch.unwrap_or_default().map(narrow),
-        pressure_max: narrow(area.pressure),
-    }
+    Surface::flat(area.counts, area.per_inch(), area.pressure)
 }
 
 #[cfg(test)]

@@ -38,12 +38,16 @@ impl Shown {
     /// Notes what is wanted; what the box does not have is left out.
     pub(super) fn want(&mut self, feedback: &Feedback) {
         match feedback {
-            Feedback::Lamps(mask) => self.lamps = mask & self.lamps_mask,
+            Feedback::Lamps(mask) => self.lamps = *mask as u32 & self.lamps_mask,
             Feedback::Label { control, text } => {
-                if u16::from(*control) < self.labels {
-                    self.text.insert(*control, padded(text, self.characters));
+                let there = u8::try_from(*control)
+                    .ok()
+                    .filter(|&c| u16::from(c) < self.labels);
+                if let Some(control) = there {
+                    self.text.insert(control, padded(text, self.characters));
                 }
             }
+            _ => {}
         }
     }
 

@@ -63,14 +63,14 @@ impl Host {
     }
 }
 
-fn dial(control: u8, delta_counts: i32) -> InputEvent {
+fn dial(control: u16, delta_counts: i32) -> InputEvent {
     InputEvent::Dial {
         control,
         delta_counts,
     }
 }
 
-fn button(control: u8, down: bool) -> InputEvent {
+fn button(control: u16, down: bool) -> InputEvent {
     InputEvent::Button { control, down }
 }
 

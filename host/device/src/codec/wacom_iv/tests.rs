@@ -83,11 +83,7 @@ fn a_digitizer_is_asked_for_everything_and_set_up_with_tilt() {
     assert_eq!(host.hear(b"~RE202C900,002,02,1016,2540\r"), [bytes(set_up)]);
     assert_eq!(host.events, [InputEvent::Started]);
     assert_eq!(host.codec.identity(), Some("UD-0608-R00,V1.4-0"));
-    let want = Surface {
-        max_counts: [6144, 8448],
-        counts_per_inch: [1016, 2540],
-        pressure_max: 255,
-    };
+    let want = Surface::flat([6144, 8448], [1016.0, 2540.0], 255);
     assert_eq!(host.codec.surface(), Some(want));
     assert_eq!(
         host.codec.counters(),
@@ -149,15 +145,10 @@ const GRAPHIRE_FULL: [u8; 7] = [0xEC, 0x27, 0x6F, 0x1C, 0x1C, 0x7F, 0x3F];
 fn every_field_of_a_pen_packet_is_found() {
     let mut codec = WacomIv::listening(&profile("graphire-serial"));
     let want = PenSample {
-        tool: Tool::Pen,
-        x_counts: 5103,
-        y_counts: 3711,
         pressure_counts: 511,
         buttons: 1,
-        in_range: true,
         tip: true,
-        tilt: None,
-        wheel: 0,
+        ..PenSample::hovering(Tool::Pen, 5103, 3711)
     };
     assert_eq!(samples(&mut codec, &GRAPHIRE_FULL), [want]);
     let light = [0xE0, 0, 1, 0, 0, 2, 0x40];
@@ -213,14 +204,7 @@ fn leaving_lets_everything_go_once_where_it_was() {
     let mut codec = WacomIv::listening(&profile("graphire-serial"));
     let held = samples(&mut codec, &GRAPHIRE_FULL)[0];
     let away = [0xA0, 0, 0, 0, 0, 0, 0x40];
-    let want = PenSample {
-        pressure_counts: 0,
-        buttons: 0,
-        in_range: false,
-        tip: false,
-        ..held
-    };
-    assert_eq!(samples(&mut codec, &away), [want]);
+    assert_eq!(samples(&mut codec, &away), [held.leaving()]);
     assert_eq!(samples(&mut codec, &away), []);
     assert_eq!(codec.counters().reports, 3);
 }
