@@ -151,6 +151,20 @@ pub enum DeclareError {
         /// How many were given.
         count: usize,
     },
+    /// None, or more than can be numbered.
+    #[error("{name} has {count} outputs; 1 to 127 are possible")]
+    Outputs {
+        /// As given.
+        name: Name,
+        /// How many were given.
+        count: usize,
+    },
+    /// There are as many instances as there may be.
+    #[error("there is no room for {name}: the network has as many functions as it may; delete some")]
+    Full {
+        /// As given.
+        name: Name,
+    },
 }
 
 fn meant(alike: &[Name]) -> String {

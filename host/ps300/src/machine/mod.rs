@@ -24,6 +24,7 @@ mod program;
 mod program_state;
 mod removal;
 mod rendered;
+mod sources;
 mod state;
 mod terminal;
 mod tree;
@@ -34,6 +35,8 @@ pub use activity::{Activity, InputActivity, OutputActivity};
 pub use error::{DeclareError, ExecuteError};
 pub use panel::{LABEL_CHARACTERS, Panel};
 pub use patch::Refused;
+pub(crate) use sources::DECLARED;
+pub use sources::SourceId;
 pub use terminal::{TERMINAL_COLUMNS, TERMINAL_LINES, Terminal};
 pub use view::{ConnectionView, InputView, InstanceView, OutputView};
 

@@ -81,7 +81,7 @@ impl Machine {
         self.forget_remade(&remade);
     }
 
-    /// A new machine with the same host parameters and the same time.
+    /// A new machine with the same host parameters, the same declared senders and the same time.
     fn sketch(&self) -> Self {
         let mut sketch = Self::with_limits(self.network.limits);
         let sinks = (0..self.network.sink_count() as u32).map(SinkId);
@@ -91,6 +91,10 @@ impl Machine {
                 // The same parameters were declared here without complaint.
                 let _ = sketch.declare_sink(sink.name.as_str(), &kinds);
             }
+        }
+        for (name, outputs) in self.sources() {
+            // Likewise.
+            let _ = sketch.declare_source(name.as_str(), &outputs);
         }
         sketch.ticked = self.ticked;
         sketch.network.now = self.network.now;

@@ -16,7 +16,7 @@ pub enum Role {
     Function,
     /// Made by `VARIABLE name`.
     Variable,
-    /// There from the start, sends what the hands do.
+    /// There from the start or declared by the host; sends what the hands do.
     Device,
     /// Sends for a display node, and has its name.
     Node,
@@ -90,6 +90,22 @@ pub(super) struct Description {
 }
 
 impl Description {
+    /// See [`Instance::is_declared`].
+    pub(super) fn is_declared(&self) -> bool {
+        self.role == Role::Device && std::ptr::eq(self.spec, &raw const crate::machine::DECLARED)
+    }
+
+    /// Its place in listings: devices of the machine, those of the host by name (which comes first is chance),
+    /// what commands made, and last what sends for nodes, since a program makes that with its wires.
+    pub(super) fn place(&self) -> (u8, Option<&Name>, u64) {
+        match self.role {
+            Role::Device if self.is_declared() => (1, Some(&self.name), 0),
+            Role::Device => (0, None, self.serial),
+            Role::Function | Role::Variable => (2, None, self.serial),
+            Role::Node => (3, None, self.serial),
+        }
+    }
+
     /// As reports name it.
     pub(super) fn what(&self) -> String {
         match self.role {
@@ -130,6 +146,11 @@ impl<'a> Instance<'a> {
             Behaviour::Pure(_) => Vec::new(),
             Behaviour::Stateful(function) => function.remembered(),
         }
+    }
+
+    /// Whether the host declared it, rather than the machine having it from the start.
+    pub(crate) fn is_declared(self) -> bool {
+        self.description.is_declared()
     }
 
     pub(crate) fn input_count(self) -> usize {

@@ -8,9 +8,10 @@ use super::instance::{Behaviour, Description, Role};
 use super::output::OutputPort;
 use super::port::InputPort;
 use super::queues::Head;
-use crate::intrinsic::{Does, Inputs, Outputs, Spec};
+use crate::intrinsic::{Does, Inputs, OutputSpec, Outputs, Spec};
 use crate::language::Name;
 use crate::structure::NodeId;
+use crate::value::Kinds;
 
 /// Vacant ports are left alone up to this many, and as long as they are the smaller part.
 const VACANT_MAX: usize = 1024;
@@ -30,6 +31,37 @@ impl Network {
         size: Option<u8>,
         role: Role,
     ) -> Option<InstanceId> {
+        let outputs: Vec<_> = spec.outputs_of(size.unwrap_or(0)).collect();
+        self.add_with(name, spec, size, role, &outputs)
+    }
+
+    /// Makes a device of the host's, with these outputs. Nothing if there are too many instances.
+    pub(crate) fn add_source(
+        &mut self,
+        name: Name,
+        spec: &'static Spec,
+        outputs: &[Kinds],
+    ) -> Option<InstanceId> {
+        let outputs: Vec<_> = outputs.iter().map(|&kinds| OutputSpec::of(kinds)).collect();
+        self.add_with(name, spec, None, Role::Device, &outputs)
+    }
+
+    /// Whether an instance is a declared device with these outputs.
+    pub(crate) fn sends_as_declared(&self, id: InstanceId, outputs: &[Kinds]) -> bool {
+        self.instance(id).is_some_and(|instance| {
+            let ports = instance.output_ports().iter().map(|port| port.kinds);
+            instance.is_declared() && ports.eq(outputs.iter().copied())
+        })
+    }
+
+    fn add_with(
+        &mut self,
+        name: Name,
+        spec: &'static Spec,
+        size: Option<u8>,
+        role: Role,
+        outputs: &[OutputSpec],
+    ) -> Option<InstanceId> {
         if self.room() == 0 {
             return None;
         }
@@ -43,7 +75,7 @@ impl Network {
             serial: self.made,
         });
         self.made += 1;
-        let head = self.add_ports(spec, of);
+        let head = self.add_ports(spec, of, outputs);
         let behaviour = Behaviour::of(spec, of);
         let id = if let Some(index) = self.vacant.pop() {
             let at = index as usize;
@@ -66,12 +98,12 @@ impl Network {
         Some(id)
     }
 
-    fn add_ports(&mut self, spec: &'static Spec, size: u8) -> Head {
+    fn add_ports(&mut self, spec: &'static Spec, size: u8, outputs: &[OutputSpec]) -> Head {
         let (first_input, first_output) = (self.queues.inputs.len(), self.outputs.len());
         self.queues
             .inputs
             .extend(spec.inputs_of(size).map(InputPort::new));
-        self.outputs.extend(spec.outputs_of(size).map(OutputPort::new));
+        self.outputs.extend(outputs.iter().copied().map(OutputPort::new));
         Head {
             scalar: spec.scalar.filter(|_| !spec.each),
             first_input: first_input as u32,

@@ -182,16 +182,17 @@ impl Network {
         })
     }
 
-    /// Every instance, in the order they were made; those that send for nodes come last, since a program makes
-    /// them with its wires.
+    /// Every instance: devices, then what commands made in that order, then what sends for nodes.
     pub(crate) fn instances(&self) -> Vec<Numbered<'_>> {
         let mut all: Vec<_> = (0..self.descriptions.len() as u32)
             .map(InstanceId)
             .filter_map(|id| self.instance(id).map(|instance| Numbered { id, instance }))
             .collect();
-        all.sort_by_key(|numbered| {
-            let description = numbered.instance.description;
-            (description.role == Role::Node, description.serial)
+        all.sort_by(|a, b| {
+            a.instance
+                .description
+                .place()
+                .cmp(&b.instance.description.place())
         });
         all
     }

@@ -1,7 +1,7 @@
 //! What must hold for every session.
 
 use super::edits::makes_the_same;
-use super::session::{Act, Play, limits, machine};
+use super::session::{Act, LATE, Play, limits, machine_like};
 use ps300::language::Severity;
 use ps300::{Machine, Ran};
 
@@ -58,7 +58,7 @@ fn can_be_looked_at(machine: &Machine) {
 /// What it is written as is a program without errors.
 fn its_text_can_be_read(of: &Machine) {
     let text = of.network_text();
-    let mut again = machine();
+    let mut again = machine_like(of);
     let diagnostics = again.load(&text);
     let errors: Vec<_> = diagnostics
         .iter()
@@ -70,7 +70,7 @@ fn its_text_can_be_read(of: &Machine) {
 /// While it runs it can be changed into what a program makes.
 fn it_becomes_any_program(of: &Machine, into: &Machine) {
     let text = of.network_text_with_state();
-    let mut changed = machine();
+    let mut changed = machine_like(if into.is_defined(LATE) { into } else { of });
     changed.load(&text);
     let program: Vec<_> = into.program();
     changed.patch(&program);
@@ -88,7 +88,7 @@ fn its_text_goes_on(of: Play, acts: &[Act]) {
         // A thing without a name cannot be watched; one that nothing feeds any more is not made again.
         return;
     }
-    let mut again = Play::at(of.ticks());
+    let mut again = Play::like(&of);
     let diagnostics = again.machine.load(&text);
     let errors: Vec<_> = diagnostics
         .iter()

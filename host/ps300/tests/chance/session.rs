@@ -13,13 +13,18 @@ const BYTES_AN_ACT: usize = 1 + size_of::<Dice>();
 const SECS_A_TICK: f64 = 1.0 / 32.0;
 
 /// Every device, with more outputs than it has.
-const DEVICES: [(&str, u8); 5] = [
+const DEVICES: [(&str, u8); 7] = [
     ("DIALS", 9),
     ("FKEYS", 2),
     ("BUTTONSIN", 2),
     ("TABLETIN", 7),
     ("KEYBOARD", 2),
+    ("box", 3),
+    (LATE, 3),
 ];
+
+/// A device that comes in the middle of a session, if at all.
+pub(crate) const LATE: &str = "box2";
 
 /// What joins the names to the host, as far as they are functions.
 const TO_THE_HOST: &str = "CONNECT a<1>:<1>host; CONNECT b<1>:<2>host; CONNECT e_1<1>:<1>host;
@@ -48,6 +53,8 @@ pub(crate) enum Act {
     GoOn { firings_max: u32 },
     /// Commands that may be taken back.
     Edit(String),
+    /// A device comes and is connected.
+    Declare(String),
     /// Takes the last edit back.
     Undo,
     /// Makes it again.
@@ -80,7 +87,22 @@ pub(crate) fn machine() -> Machine {
     let mut machine = Machine::with_limits(limits());
     let declared = machine.declare_sink("host", &[Kinds::ANY, Kinds::NUMBER]);
     assert!(declared.is_ok(), "{declared:?}");
+    declare(&mut machine, "box");
     machine
+}
+
+/// The same, with what has come in the course of a session.
+pub(crate) fn machine_like(of: &Machine) -> Machine {
+    let mut machine = machine();
+    if of.is_defined(LATE) {
+        declare(&mut machine, LATE);
+    }
+    machine
+}
+
+fn declare(machine: &mut Machine, name: &str) {
+    let declared = machine.declare_source(name, &[Kinds::REAL, Kinds::ANY]);
+    assert!(declared.is_ok(), "{declared:?}");
 }
 
 /// The session that some bytes say.
@@ -131,6 +153,7 @@ fn act(bytes: &[u8]) -> Act {
         27 => Act::Edit(example(dice)),
         28 | 29 => Act::Undo,
         30 => Act::Redo,
+        21 => Act::Declare(link(dice).replace("DIALS", LATE)),
         20 => Act::GoOn {
             firings_max: u32::from(dice[0]),
         },
@@ -181,6 +204,15 @@ impl Play {
         play
     }
 
+    /// The same, with the devices that have come.
+    pub(crate) fn like(of: &Self) -> Self {
+        let mut play = Self::at(of.ticks());
+        if of.machine.is_defined(LATE) {
+            declare(&mut play.machine, LATE);
+        }
+        play
+    }
+
     /// How many ticks its machine has seen.
     pub(crate) fn ticks(&self) -> u64 {
         self.ticks
@@ -217,6 +249,12 @@ impl Play {
             Act::GoOn { firings_max } => {
                 let ran = self.machine.go_on(firings(*firings_max));
                 assert!(ran.firings() <= firings(*firings_max), "{ran:?}");
+            }
+            Act::Declare(text) => {
+                declare(&mut self.machine, LATE);
+                self.edits.hear(text);
+                self.machine.load(text);
+                self.watch();
             }
             Act::Edit(text) => {
                 self.edits.edit(&mut self.machine, text);
