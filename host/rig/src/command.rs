@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::controls::command::{Binding, ControlCommand, LearnCommand};
+
 /// One request. Requests that cannot be met leave a [`crate::Note`] and change nothing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -42,6 +44,42 @@ pub enum Command {
     PuppetPose(PuppetPose),
     /// Gives the clip's keys other times, so that the puppet can do it; the path stays. One step of undo.
     SlowToFit,
+    /// Connecting a control by touching it and what it is to drive.
+    Learn(LearnCommand),
+    /// Connects a control to an inlet of the network, with what scaling that takes. One step of undo.
+    BindControl(Binding),
+    /// Takes away everything that an output of a device drives. One step of undo.
+    UnbindControl {
+        /// The device's name as in [`crate::DeviceView::name`].
+        device: String,
+        /// The control, from 1.
+        control: u8,
+    },
+    /// Gives a control a label, as the network would. One step of undo.
+    SetControlLabel {
+        /// The device's name as in [`crate::DeviceView::name`].
+        device: String,
+        /// The control, from 1.
+        control: u8,
+        /// The label; empty for the name of what it drives.
+        text: String,
+    },
+    /// How controls behave, and their pages.
+    Controls(ControlCommand),
+    /// Has a device show what one output of it can, for a moment; then it shows what it is to show again.
+    TestOutput {
+        /// The device's name as in [`crate::DeviceView::name`].
+        device: String,
+        /// The output, by [`crate::OutputView::number`].
+        output: u16,
+    },
+    /// Keeps a device's place among equal ones, wherever it is plugged in.
+    PinDevice {
+        /// The device's name as in [`crate::DeviceView::name`].
+        device: String,
+        /// Which of several equal ones it is to be, from 1; none lets it be found by itself again.
+        slot: Option<u16>,
+    },
     /// Writes the show to its folder.
     Save,
 }

@@ -9,9 +9,9 @@ use device::transport::{Transport, TransportError};
 use device::{Device, Health, UnknownFormat};
 use device_profiles::{ControlClass, Profiles};
 
+use crate::controls::view::{DeviceHealth, DeviceView};
 use crate::desk::Source;
 use crate::ports::Ports;
-use crate::snapshot::{DeviceHealth, DeviceView};
 
 /// How often a device that is gone is looked for. Without a monitor of the system's own, once a second is what
 /// comparable drivers do.
@@ -206,14 +206,14 @@ impl Seat {
             Health::Lost => DeviceHealth::Lost,
         };
         if health != self.health {
-            match health {
+            match &health {
                 DeviceHealth::Present => noticed(Change::Came(self.spec.name.clone())),
                 DeviceHealth::Lost => {
                     let why = device.lost().map(TransportError::to_string).unwrap_or_default();
                     noticed(Change::Gone(format!("{}: {why}", self.spec.name)));
                     self.look_at = now.after(LOOK_AGAIN);
                 }
-                DeviceHealth::Starting => {}
+                _ => {}
             }
             self.health = health;
         }
@@ -272,9 +272,10 @@ impl Seat {
             name: self.spec.name.clone(),
             profile: self.spec.profile.clone(),
             address: self.spec.address.clone(),
-            health: self.health,
+            health: self.health.clone(),
             events: self.events,
             rejected: counters.unknown + counters.rejected,
+            ..DeviceView::default()
         }
     }
 }

@@ -8,6 +8,7 @@
 
 pub mod calibration;
 pub mod command;
+pub mod controls;
 mod desk;
 pub mod doctor;
 pub mod document;
@@ -36,9 +37,10 @@ pub mod ward;
 mod wiring;
 
 pub use command::{
-    Command, EditCommand, KineticsMode, NetworkEdit, PoseCommand, PuppetCommand, PuppetPose, Side,
-    TeachCommand, Touch, TransportCommand, ViewCommand,
+    Binding, Command, ControlCommand, EditCommand, KineticsMode, LearnCommand, NetworkEdit, PoseCommand,
+    PuppetCommand, PuppetPose, Side, TeachCommand, Touch, TransportCommand, ViewCommand,
 };
+pub use controls::view::{ControlView, DeviceHealth, DeviceView, LearningView, OutputView};
 pub use device_profiles::{Profiles, Reaction};
 pub use feasibility::{FeasibilityView, StretchKind, StretchView};
 pub use inputs::{InputError, InputSpec};
@@ -48,7 +50,7 @@ pub use ports::{Found, Ports, TouchError};
 pub use puppet::{EndHandle, JointHandle, Pace, PuppetPoseView, PuppetSpec};
 pub use rig::{Rig, RigError, RigOptions};
 pub use snapshot::{
-    DeskKeyView, DeskView, DeviceHealth, DeviceView, DialView, FigureView, JointView, KeyView, KineticsView,
-    NetworkLook, Note, NoteLevel, PuppetState, PuppetView, Snapshot, TransportView, ViewState,
+    DeskKeyView, DeskView, DialView, FigureView, JointView, KeyView, KineticsView, NetworkLook, Note,
+    NoteLevel, PuppetState, PuppetView, Snapshot, TransportView, ViewState,
 };
 pub use system::{SystemPorts, WithBench, real_time};

@@ -13,6 +13,7 @@ use ps300::display::{DisplayList, Stroke};
 use ps300::machine::Activity;
 use ps300::machine::picture::Picture;
 
+use crate::controls::view::{DeviceView, LearningView};
 use crate::feasibility::FeasibilityView;
 use crate::journal::Digest;
 use crate::puppet::PuppetPoseView;
@@ -56,6 +57,8 @@ pub struct Snapshot {
     pub feasibility: Option<FeasibilityView>,
     /// Input devices, in order of their names.
     pub devices: Vec<DeviceView>,
+    /// What is being learnt, while something is ([`crate::LearnCommand`]).
+    pub learning: Option<LearningView>,
     /// What [`crate::Command::Undo`] would take back, in words.
     pub undo: Option<String>,
     /// What [`crate::Command::Redo`] would make again, in words.
@@ -409,35 +412,6 @@ pub struct JointView {
     pub trouble: Option<&'static str>,
     /// Share of the way from wish to joint that its goal has retreated, 0 to 1.
     pub retreat: f64,
-}
-
-/// An input device.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct DeviceView {
-    /// The name it goes by in the rig, also where to touch it when simulated.
-    pub name: String,
-    /// Profile it was matched to.
-    pub profile: String,
-    /// Address it was opened at.
-    pub address: String,
-    /// How it is.
-    pub health: DeviceHealth,
-    /// Events decoded so far.
-    pub events: u64,
-    /// Malformed bytes or reports skipped so far.
-    pub rejected: u64,
-}
-
-/// How an input device is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DeviceHealth {
-    /// Opened, has not answered yet.
-    #[default]
-    Starting,
-    /// Answers.
-    Present,
-    /// Gone; looked for again.
-    Lost,
 }
 
 /// A remark for the person at the rig.

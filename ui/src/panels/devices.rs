@@ -59,6 +59,8 @@ fn row(ui: &mut Ui, rect: Rect, device: &DeviceView, commands: &mut Commands<'_>
         DeviceHealth::Present => ("", theme::TEXT),
         DeviceHealth::Starting => ("starting", theme::DIM),
         DeviceHealth::Lost => ("unplugged", theme::DIM),
+        DeviceHealth::Forbidden { .. } => ("not allowed", theme::DIM),
+        DeviceHealth::Held { .. } => ("in use", theme::DIM),
     };
     if device.health == DeviceHealth::Present {
         ui.painter().circle_filled(lamp, 3.5, ink(theme::LIVE));

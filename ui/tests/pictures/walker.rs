@@ -331,7 +331,7 @@ fn devices() -> Vec<DeviceView> {
         address: format!("sim:{name}"),
         health,
         events,
-        rejected: 0,
+        ..DeviceView::default()
     };
     vec![
         device("dial-box", "sgi-dialbox-display", DeviceHealth::Present, 1284),

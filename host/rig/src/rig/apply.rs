@@ -47,6 +47,13 @@ impl Rig {
             Command::Teach(teach) => self.teach(teach),
             Command::PuppetPose(pose) => self.pose_puppet(pose),
             Command::SlowToFit => self.slow_to_fit(),
+            Command::Learn(_)
+            | Command::BindControl(_)
+            | Command::UnbindControl { .. }
+            | Command::SetControlLabel { .. }
+            | Command::Controls(_)
+            | Command::TestOutput { .. }
+            | Command::PinDevice { .. } => self.control(command),
             Command::Save => self.save(),
         };
         if let Err(why) = done {

@@ -47,6 +47,7 @@ impl Rig {
             puppet_pose: self.rehearsing.as_mut().map(rehearse::Rehearsing::pose_view),
             feasibility: self.rehearsing.as_ref().map(rehearse::Rehearsing::feasibility),
             devices: self.inputs.view(),
+            learning: None,
             undo: self.history.undo_words().map(str::to_owned),
             redo: self.history.redo_words().map(str::to_owned),
             notes: self.notes.view(),

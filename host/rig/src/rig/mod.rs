@@ -5,6 +5,7 @@
 //! to the devices; the snapshot.
 
 mod apply;
+mod controls;
 mod look;
 mod network;
 mod rehearse;

@@ -86,7 +86,7 @@ impl Check {
                 let last = seen.notes.last().map_or("none", |note| note.text.as_str());
                 format!("no note has it; the last is \"{last}\"")
             }),
-            Self::Device { device, health } => device_is(seen, device, *health),
+            Self::Device { device, health } => device_is(seen, device, health),
             Self::Servos { joint, conduct } => servos(evidence, joint.as_deref(), *conduct),
             Self::Torque { joint, on } => torque_is(evidence, joint.as_deref(), *on),
             Self::Counter { which, bound } => {
@@ -200,12 +200,12 @@ fn label(seen: &Snapshot, control: u8, text: &str) -> Result<(), String> {
     fits(there == text, || format!("the label is \"{there}\""))
 }
 
-fn device_is(seen: &Snapshot, name: &str, health: DeviceHealth) -> Result<(), String> {
+fn device_is(seen: &Snapshot, name: &str, health: &DeviceHealth) -> Result<(), String> {
     let device = seen.devices.iter().find(|device| device.name == name);
     let device = device.ok_or_else(|| format!("the rig has no input device {name}"))?;
     let found = HEALTHS
         .iter()
         .find(|(_, known)| *known == device.health)
         .map_or("", |(name, _)| name);
-    fits(device.health == health, || format!("{name} is {found}"))
+    fits(device.health == *health, || format!("{name} is {found}"))
 }

@@ -110,7 +110,7 @@ impl Check {
                 let place = words.one_of(&HEALTHS.map(|(name, _)| name))?;
                 Ok(Self::Device {
                     device,
-                    health: HEALTHS[place].1,
+                    health: HEALTHS[place].1.clone(),
                 })
             }
             "undo" => {
