@@ -14,7 +14,8 @@ const SHARE: f64 = 1.0 / 16.0;
 pub struct Rhythm {
     heard_secs: Option<f64>,
     gap_secs: Option<f64>,
-    jitter_secs: f64,
+    /// Seconds.
+    jitter: f64,
 }
 
 impl Rhythm {
@@ -28,7 +29,7 @@ impl Rhythm {
             return;
         }
         let mean = *self.gap_secs.get_or_insert(gap);
-        self.jitter_secs += ((gap - mean).abs() - self.jitter_secs) * SHARE;
+        self.jitter += ((gap - mean).abs() - self.jitter) * SHARE;
         self.gap_secs = Some(mean + (gap - mean) * SHARE);
     }
 
@@ -43,7 +44,7 @@ impl Rhythm {
     /// Mean distance of a gap from the mean gap, milliseconds; 0 while it is silent.
     pub fn jitter_ms(&self, now_secs: f64) -> f64 {
         if self.rate_hz(now_secs) > 0.0 {
-            self.jitter_secs * 1e3
+            self.jitter * 1e3
         } else {
             0.0
         }

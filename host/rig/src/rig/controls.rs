@@ -13,6 +13,11 @@ impl Rig {
             | Command::PinDevice { device, .. } => device,
             _ => return Err("no device has controls in the network".into()),
         };
-        Err(format!("{device} has no controls in the network"))
+        let devices = self.inputs.view();
+        Err(if devices.iter().any(|it| it.name == *device) {
+            format!("{device} has no controls in the network")
+        } else {
+            format!("there is no input device {device}")
+        })
     }
 }
