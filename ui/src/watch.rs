@@ -165,7 +165,7 @@ fn hash_desk(seen: &Snapshot, h: &mut DefaultHasher) {
         (&key.label, key.lit, key.down).hash(h);
     }
     for device in &seen.devices {
-        (&device.name, device.health as u8, device.events).hash(h);
+        (&device.name, &device.health, device.events).hash(h);
     }
 }
 

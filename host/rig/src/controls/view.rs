@@ -38,7 +38,7 @@ pub struct DeviceView {
 }
 
 /// How an input device is.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DeviceHealth {
     /// Opened, has not answered yet.
     #[default]
