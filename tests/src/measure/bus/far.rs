@@ -1,16 +1,23 @@
 //! Simulated buses behind pseudo-terminals whose answers come when the wire has carried them, to the microsecond.
 //!
 //! One thread serves them all. An answer is handed over in one piece when its last byte is out, as a good adapter does.
-//! The thread sleeps until shortly before and then stays awake, for a sleeper is woken tens of microseconds late,
-//! which at 4 Mbaud is a tenth of a cycle.
+//! A wire does not sleep, but a thread does, and is woken tens of microseconds late, which at 4 Mbaud is a tenth of a
+//! cycle. So the thread is awake when something is due, and for a while after an answer, when the next question comes.
+//!
+//! A pseudo-terminal hands bytes over by a worker of the kernel, which takes about 20 us each way and is no part of any
+//! wire. What it takes there and back is measured first, both ends awake (module `channel`), and an answer is handed
+//! over that much earlier, so that a program has it when the wire would have carried it. The quickest quarter counts,
+//! so that it comes rather late than early. Peers and we are served alike.
 
-use super::{Setup, Way};
+use super::{Setup, Way, channel};
 use device::transport::pty::Pty;
+use device::transport::tcp::{self, TcpTransport};
 use device::transport::{Awaited, LINES_MAX, Transport, TransportError, wait_any};
 use device::{Clock, Instant, MonotonicClock};
 use device_profiles::{Profiles, ServoProfile};
 use firmware_sim::servo_bus::{BusOptions, Unit};
 use firmware_sim::{Fault, Firmware, ServoBus};
+use std::net::TcpListener;
 use std::num::NonZeroU64;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,7 +25,11 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// So long before something is due the thread is awake.
-const AWAKE: Duration = Duration::from_micros(80);
+const AWAKE: Duration = Duration::from_micros(150);
+/// So long after an answer it listens for the next question without sleeping.
+const ATTENTIVE: Duration = Duration::from_micros(500);
+/// So much later than reckoned the simulated bus may have heard a question.
+const ROUNDING: Duration = Duration::from_micros(3);
 /// Longest sleep on quiet wires: how late the end is noticed. What the host sends wakes the thread at once.
 pub(super) const QUIET: Duration = Duration::from_millis(20);
 
@@ -29,41 +40,73 @@ pub(crate) struct Far {
     thread: Option<JoinHandle<()>>,
 }
 
+/// How programs reach a bus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Link {
+    /// A pseudo-terminal, which programs take for a serial port.
+    Terminal,
+    /// A connection inside this machine: nearly nothing beside the wire, and no worker of the kernel.
+    Tcp,
+}
+
+/// This side of a link.
+pub(super) enum Socket {
+    Terminal(Pty),
+    Listening(TcpListener),
+    Connected(TcpTransport),
+}
+
 struct End {
-    pty: Pty,
+    socket: Socket,
     bus: ServoBus,
+    /// What the link itself takes, there and back.
+    channel: Duration,
     /// Time of a byte.
     byte: Duration,
+    /// The answer that is on the wire.
+    said: Vec<u8>,
     /// When there is something to do; none: when the host says something.
     due: Option<Instant>,
+    /// Until when the host's next question is listened for without sleeping.
+    attentive_until: Instant,
 }
 
 impl Far {
     /// One bus for each setup.
     pub(crate) fn start(setups: &[Setup]) -> anyhow::Result<Self> {
-        Self::start_with(setups, None)
+        Self::start_by(Link::Terminal, setups, None)
+    }
+
+    /// The same, reached otherwise.
+    pub(super) fn start_linked(link: Link, setups: &[Setup]) -> anyhow::Result<Self> {
+        Self::start_by(link, setups, None)
     }
 
     /// The same, with something wrong.
     pub(crate) fn start_with(setups: &[Setup], fault: Option<&str>) -> anyhow::Result<Self> {
+        Self::start_by(Link::Terminal, setups, fault)
+    }
+
+    fn start_by(link: Link, setups: &[Setup], fault: Option<&str>) -> anyhow::Result<Self> {
         let mut ends = Vec::new();
+        let mut paths = Vec::new();
         for setup in setups {
             let mut bus = setup.bus()?;
             if let Some(fault) = fault {
                 bus.inject(0, &Fault::parse(fault)?);
             }
-            let pty = Pty::open()?;
+            let (socket, path) = link.open()?;
+            paths.push(path);
             ends.push(End {
-                pty,
+                socket,
+                channel: channel::there_and_back(link)?,
                 bus,
                 byte: Duration::from_secs(10) / setup.baud,
+                said: Vec::with_capacity(4096),
                 due: None,
+                attentive_until: Instant::ZERO,
             });
         }
-        let paths = ends
-            .iter()
-            .map(|end| end.pty.path().to_string_lossy().into_owned())
-            .collect();
         let ended = Arc::new(AtomicBool::new(false));
         let told = Arc::clone(&ended);
         Ok(Self {
@@ -93,22 +136,23 @@ fn serve(ends: &mut [End], ended: &AtomicBool) {
     // Only exactness is lost where the kernel refuses.
     let _ = rustix::thread::set_current_timer_slack(NonZeroU64::new(super::TIMER_SLACK_NANOS));
     let clock = MonotonicClock::new();
-    let mut said = Vec::with_capacity(4096);
     while !ended.load(Ordering::Relaxed) {
         for end in ends.iter_mut() {
             // An error is nobody holding the other side: look again later.
-            let _ = end.carry(&clock, &mut said);
+            let _ = end.carry(&clock);
         }
         let now = clock.now();
         let due = ends.iter().filter_map(|end| end.due).min();
         let until = due.unwrap_or(now.after(QUIET));
-        if until.since(now) > AWAKE {
+        let attentive = ends.iter().any(|end| now < end.attentive_until);
+        if !attentive && until.since(now) > AWAKE {
             let until = Instant::from_nanos(until.as_nanos() - AWAKE.as_nanos() as u64);
             let mut looked = [false; LINES_MAX];
             let mut lines: [Option<Awaited<'_>>; LINES_MAX] = [const { None }; LINES_MAX];
-            for ((place, end), looked) in lines.iter_mut().zip(ends.iter_mut()).zip(&mut looked) {
+            let open = ends.iter_mut().filter_map(|end| end.socket.line());
+            for ((place, transport), looked) in lines.iter_mut().zip(open).zip(&mut looked) {
                 *place = Some(Awaited {
-                    transport: &mut end.pty,
+                    transport,
                     from: Instant::ZERO,
                     alert_until: Instant::ZERO,
                     looked,
@@ -119,36 +163,92 @@ fn serve(ends: &mut [End], ended: &AtomicBool) {
     }
 }
 
+impl Link {
+    /// For people.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Terminal => "a pseudo-terminal",
+            Self::Tcp => "TCP",
+        }
+    }
+
+    /// This side of a new one, and what a program opens.
+    pub(super) fn open(self) -> anyhow::Result<(Socket, String)> {
+        Ok(match self {
+            Self::Terminal => {
+                let pty = Pty::open()?;
+                let path = pty.path().to_string_lossy().into_owned();
+                (Socket::Terminal(pty), path)
+            }
+            Self::Tcp => {
+                let listener = tcp::listen("127.0.0.1:0")?;
+                let path = format!("tcp:{}", listener.local_addr()?);
+                (Socket::Listening(listener), path)
+            }
+        })
+    }
+}
+
+impl Socket {
+    /// The line, once somebody has opened the other side.
+    pub(super) fn line(&mut self) -> Option<&mut dyn Transport> {
+        if let Self::Listening(listener) = self {
+            let connected = tcp::accept(listener).ok().flatten()?;
+            *self = Self::Connected(connected);
+        }
+        match self {
+            Self::Terminal(pty) => Some(pty),
+            Self::Connected(stream) => Some(stream),
+            Self::Listening(_) => None,
+        }
+    }
+}
+
 impl End {
     /// Whatever has come and is due.
-    fn carry(&mut self, clock: &MonotonicClock, said: &mut Vec<u8>) -> Result<(), TransportError> {
+    fn carry(&mut self, clock: &MonotonicClock) -> Result<(), TransportError> {
         let mut heard = [0_u8; 4096];
-        let count = self.pty.read(&mut heard)?;
+        let Some(line) = self.socket.line() else {
+            return Ok(());
+        };
+        let count = line.read(&mut heard)?;
         let now = clock.now();
-        let now_us = now.as_micros();
-        self.bus.receive(now_us, heard.get(..count).unwrap_or_default());
         if count > 0 {
-            // Nobody answers before the question is out.
-            self.due = Some(now.after(self.byte * count as u32));
+            let heard = heard.get(..count).unwrap_or_default();
+            self.bus.receive(now.as_micros(), heard);
+            self.said.clear();
+            // Nobody answers before the question is out, and the simulated bus counts whole microseconds.
+            self.due = Some(now.after(self.byte * count as u32 + ROUNDING));
             return Ok(());
         }
         if self.due.is_none_or(|due| now < due) {
             return Ok(());
         }
-        // Answers come one behind the other, so the last one known ends last.
-        let ends_us = self.bus.statuses().last().map(|status| status.last_us);
-        let ends = ends_us.map(|us| Instant::from_nanos((us + 1) * 1000));
-        if let Some(ends) = ends.filter(|ends| *ends > now) {
-            self.due = Some(ends);
+        if self.said.is_empty() {
+            self.due = self.reckon(now);
             return Ok(());
         }
-        said.clear();
-        self.bus.transmit(now_us, said);
         self.due = None;
-        if said.is_empty() {
-            return Ok(());
+        line.write(&self.said)?;
+        self.said.clear();
+        self.attentive_until = clock.now().after(ATTENTIVE);
+        Ok(())
+    }
+
+    /// The whole answer to a question that is out, worked out while the wire would carry it, and when to hand it over.
+    fn reckon(&mut self, now: Instant) -> Option<Instant> {
+        let mut until_us = now.as_micros();
+        // Each answer is known once the one before it is out.
+        loop {
+            self.bus.receive(until_us, &[]);
+            match self.bus.statuses().last().map(|status| status.last_us + 1) {
+                Some(last_us) if last_us > until_us => until_us = last_us,
+                _ => break,
+            }
         }
-        self.pty.write(said)
+        self.bus.transmit(until_us, &mut self.said);
+        let there_us = until_us.saturating_sub(self.channel.as_micros() as u64);
+        (!self.said.is_empty()).then_some(Instant::from_nanos(there_us * 1000))
     }
 }
 

@@ -3,14 +3,19 @@
 //!
 //! Everybody does the same: goal positions to all, present positions of all, each value looked at. Each has a
 //! simulated bus of its own behind a pseudo-terminal, as any program would see an adapter without latency; a thread
-//! that is awake when answers are due hands them over when the wire has carried them (module `far`).
-//! Ours is the player's bus as it is, limits, watchdog, health and all, told to read positions alone.
+//! that is awake when answers are due hands them over so that they are there when the wire has carried them (module
+//! `far`): what is above the limit is the program's own.
+//! Ours is the player's bus as it is, limits, watchdog, health and all, told to read positions alone, by a thread that
+//! may stay awake around the time when answers are due.
 //! Source of the limit: the servo reference, 7.1.
 
+mod channel;
 mod far;
 mod ours;
 mod parallel;
 pub(crate) mod peers;
+
+use far::Link;
 
 use super::{Row, Subject, Tell, median, repeated};
 use device::{Clock, MonotonicClock};
@@ -99,7 +104,20 @@ pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
     // Only exactness is lost where the kernel refuses.
     let _ = rustix::thread::set_current_timer_slack(NonZeroU64::new(TIMER_SLACK_NANOS));
     let clock = MonotonicClock::new();
-    for setup in setups() {
+    for link in [Link::Terminal, Link::Tcp] {
+        let channel_ms = channel::there_and_back(link)?.as_secs_f64() * 1e3;
+        tell(&Row {
+            measure: NAME,
+            row: format!("{}, there and back, taken off", link.name()),
+            subject: "kernel",
+            value: channel_ms,
+            best: channel_ms,
+            unit: "ms",
+            limit: None,
+            ratio: None,
+        });
+    }
+    for setup in setups().into_iter() {
         let mut cycles: Vec<(&'static str, Boxed)> = vec![("dialrig", ours::cycle(setup)?)];
         cycles.extend(peers::cycles(setup)?);
         let mut subjects: Vec<Subject<'_>> = cycles

@@ -5,8 +5,11 @@ use super::{Boxed, Cycle, Setup, Way};
 use anyhow::{Context, ensure};
 use device::MonotonicClock;
 use device::servo::{Armed, Bus, BusSettings, Commanded, Goal, Limits, Member, Readings};
-use device::transport::serial;
+use device::transport;
 use std::time::Duration;
+
+/// A thread of its own for the bus, awake when answers are due; longer than a cycle at 4 Mbaud, where it stays awake.
+const ALERT: Duration = Duration::from_micros(400);
 
 struct OnBus {
     bus: Bus,
@@ -35,6 +38,7 @@ pub(super) fn bus(setup: Setup, path: &str) -> anyhow::Result<Bus> {
         // Other subjects' cycles lie between two repetitions.
         watchdog: Duration::from_millis(2540),
         readings: Readings::Position,
+        alert: ALERT,
         fast_reads: setup.way == Way::Fast,
         ..BusSettings::new("measured", setup.baud)
     };
@@ -45,8 +49,8 @@ pub(super) fn bus(setup: Setup, path: &str) -> anyhow::Result<Bus> {
         Member::new(&format!("joint {id}"), id, profile.clone(), 1, centre, limits)
     };
     let members = (1..=setup.servos).map(member).collect::<Result<Vec<_>, _>>()?;
-    let transport = serial::open(path, setup.baud)?;
-    Ok(Bus::new(Box::new(transport), members, settings)?)
+    let transport = transport::open(&path.parse()?, setup.baud)?;
+    Ok(Bus::new(transport, members, settings)?)
 }
 
 impl Cycle for OnBus {
