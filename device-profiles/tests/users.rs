@@ -463,6 +463,12 @@ fn what_a_field_of_a_puppet_may_be_is_said() {
             "jerk_max_rad_per_s3 must be above 0, found 0",
             "[[group.joint]]",
         ),
+        (
+            "accel_max_rad_per_s2 = 40.0\n",
+            "accel_max_rad_per_s2 = 40.0\njerk_max_rad_per_s3 = 30.0\n",
+            "jerk_max_rad_per_s3 must be at least accel_max_rad_per_s2, 40, or each change takes longer than 2 s; found 30",
+            "[[group.joint]]",
+        ),
     ];
     for (at, (from, to, message, place)) in rows.into_iter().enumerate() {
         check_refused(

@@ -192,6 +192,16 @@ impl PuppetJoint {
                 found.push(format!("{what} must be above 0, found {value}"));
             }
         }
+        // Acceleration is built up over twice its limit by that of jerk: more than two seconds is no joint's.
+        if let Some(jerk) = self.jerk_max_rad_per_s3
+            && jerk > 0.0
+            && jerk < self.accel_max_rad_per_s2
+        {
+            found.push(format!(
+                "jerk_max_rad_per_s3 must be at least accel_max_rad_per_s2, {}, or each change takes longer than 2 s; found {jerk}",
+                self.accel_max_rad_per_s2
+            ));
+        }
         if !self
             .origin_xyz_m
             .iter()

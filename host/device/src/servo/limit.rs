@@ -9,6 +9,11 @@
 //! Source: the stopping distance v²/2a of uniform deceleration; in discrete time with step h the
 //! fastest v whose step and stopping distance fit into d solves v·h + v²/2a = d. Braking in
 //! steps of any size needs no more than v²/2a, so the bound holds for irregular ticks.
+//!
+//! A limit of jerk is kept by rounding the wishes before (module `jerk`), so that none of this depends on it; braking is
+//! as short as ever.
+
+use super::jerk::Rounding;
 
 /// Part of a limit that is never used, so that rounding in whoever takes differences of the
 /// goals cannot show more than the limit: 1e-6 covers positions to 10 rad at 0.1 ms steps.
@@ -16,6 +21,8 @@ const HEADROOM: f64 = 1e-6;
 /// Longest step in which a target is followed, in seconds. After a longer pause (a stall of the
 /// host) the goal only brakes, for where the target went meanwhile may be far away.
 pub const STEP_MAX_SECS: f64 = 0.1;
+/// Longest time over which wishes are rounded, in seconds.
+pub const ROUNDING_MAX_SECS: f64 = 2.0;
 /// Difference of position that is not worth reporting, in radians.
 const NEGLIGIBLE_RAD: f64 = 1e-9;
 
@@ -33,10 +40,20 @@ pub enum LimitsError {
     /// Speed and acceleration must be positive, or nothing could move or brake.
     #[error("{what} limit {value}: expected a finite number above zero")]
     Rate {
-        /// "speed" or "acceleration".
+        /// "speed", "acceleration" or "jerk".
         what: &'static str,
         /// As given.
         value: f64,
+    },
+    /// A limit of jerk so low that rounding would take longer than anybody can wait for a joint.
+    #[error(
+        "jerk limit {jerk_max_rad_per_s3}: at least {least} for this limit of acceleration, or each change takes longer than {ROUNDING_MAX_SECS} s"
+    )]
+    Jerk {
+        /// As given.
+        jerk_max_rad_per_s3: f64,
+        /// The least that is allowed.
+        least: f64,
     },
     /// A servo whose position is unknown must not be commanded.
     #[error("start position {position_rad} rad: expected a finite measured position")]
@@ -53,6 +70,7 @@ pub struct Limits {
     max_rad: f64,
     velocity_max_rad_per_s: f64,
     acceleration_max_rad_per_s2: f64,
+    jerk_max_rad_per_s3: Option<f64>,
 }
 
 impl Limits {
@@ -79,7 +97,28 @@ impl Limits {
             max_rad,
             velocity_max_rad_per_s,
             acceleration_max_rad_per_s2,
+            jerk_max_rad_per_s3: None,
         })
+    }
+
+    /// The same limits with one of jerk, in rad/s³. Refuses what is not positive, and what would round for longer than
+    /// [`ROUNDING_MAX_SECS`].
+    pub fn with_jerk(mut self, jerk_max_rad_per_s3: f64) -> Result<Self, LimitsError> {
+        if !(jerk_max_rad_per_s3.is_finite() && jerk_max_rad_per_s3 > 0.0) {
+            return Err(LimitsError::Rate {
+                what: "jerk",
+                value: jerk_max_rad_per_s3,
+            });
+        }
+        let least = 2.0 * self.acceleration_max_rad_per_s2 / ROUNDING_MAX_SECS;
+        if jerk_max_rad_per_s3 < least {
+            return Err(LimitsError::Jerk {
+                jerk_max_rad_per_s3,
+                least,
+            });
+        }
+        self.jerk_max_rad_per_s3 = Some(jerk_max_rad_per_s3);
+        Ok(self)
     }
 
     /// Lower end of the range.
@@ -100,6 +139,12 @@ impl Limits {
     /// Fastest change of the goal's velocity.
     pub fn acceleration_max_rad_per_s2(&self) -> f64 {
         self.acceleration_max_rad_per_s2
+    }
+
+    /// Fastest change of the goal's acceleration while wishes are followed in steady ticks, if there is such a limit.
+    /// Braking may be quicker.
+    pub fn jerk_max_rad_per_s3(&self) -> Option<f64> {
+        self.jerk_max_rad_per_s3
     }
 
     /// The same limits with a lower speed; a speed that is no lower, or no speed, changes nothing.
@@ -156,11 +201,21 @@ pub struct Limiter {
     velocity: f64,
     target_before: Option<f64>,
     target_velocity: f64,
+    rounding: Option<Box<Rounding>>,
 }
 
 impl Limiter {
     /// Starts where the servo was *measured*, at rest. Outside the range it may only move inwards.
     pub fn at_rest(limits: Limits, measured_rad: f64) -> Result<Self, LimitsError> {
+        let rounding = Rounding::at_rest(limits, measured_rad)?.map(Box::new);
+        Ok(Self {
+            rounding,
+            ..Self::unrounded(limits, measured_rad)?
+        })
+    }
+
+    /// The same without a limit of jerk.
+    pub(super) fn unrounded(limits: Limits, measured_rad: f64) -> Result<Self, LimitsError> {
         if !measured_rad.is_finite() {
             return Err(LimitsError::Start {
                 position_rad: measured_rad,
@@ -174,6 +229,7 @@ impl Limiter {
             velocity: 0.0,
             target_before: None,
             target_velocity: 0.0,
+            rounding: None,
         })
     }
 
@@ -187,9 +243,9 @@ impl Limiter {
         self.velocity
     }
 
-    /// Whether the goal stands.
+    /// Whether the goal stands, and stays where it is if the wish does.
     pub fn is_still(&self) -> bool {
-        self.velocity == 0.0
+        self.velocity == 0.0 && self.rounding.as_ref().is_none_or(|rounding| rounding.is_still())
     }
 
     /// The next goal, `dt_secs` after the last one, towards `target_rad`.
@@ -203,6 +259,20 @@ impl Limiter {
         if !target_rad.is_finite() {
             return self.brake_because(Change::NotFinite, dt_secs);
         }
+        match &mut self.rounding {
+            Some(rounding) => {
+                let (rounded_rad, change) = rounding.round(target_rad, dt_secs);
+                let limited = self.follow(rounded_rad, dt_secs);
+                Limited {
+                    change: change.or(limited.change),
+                    ..limited
+                }
+            }
+            None => self.follow(target_rad, dt_secs),
+        }
+    }
+
+    fn follow(&mut self, target_rad: f64, dt_secs: f64) -> Limited {
         let target = target_rad.clamp(self.limits.min_rad, self.limits.max_rad);
         let before = self.position;
         let velocity_before = self.velocity;
@@ -226,6 +296,9 @@ impl Limiter {
         }
         self.forget_target();
         self.advance(0.0, dt_secs);
+        if let Some(rounding) = &mut self.rounding {
+            rounding.rest_at(self.position);
+        }
         self.goal(None)
     }
 
@@ -239,6 +312,9 @@ impl Limiter {
 
     fn unmoved(&mut self) -> Limited {
         self.forget_target();
+        if let Some(rounding) = &mut self.rounding {
+            rounding.rest_at(self.position);
+        }
         Limited {
             position_rad: self.position,
             velocity_rad_per_s: 0.0,

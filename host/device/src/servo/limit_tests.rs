@@ -40,6 +40,7 @@ impl Judge {
             max_rad,
             velocity_max_rad_per_s,
             acceleration_max_rad_per_s2,
+            jerk_max_rad_per_s3: _,
         } = self.limits;
         let velocity = (limited.position_rad - self.position) / dt;
         let acceleration = (velocity - self.velocity) / dt;

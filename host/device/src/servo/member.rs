@@ -133,6 +133,10 @@ impl Member {
             joint.speed_max_rad_per_s,
             joint.accel_max_rad_per_s2,
         )
+        .and_then(|limits| match joint.jerk_max_rad_per_s3 {
+            Some(jerk_max) => limits.with_jerk(jerk_max),
+            None => Ok(limits),
+        })
         .map_err(|source| MemberError::Limits {
             joint: joint.name.clone(),
             source,

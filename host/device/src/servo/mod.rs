@@ -27,6 +27,7 @@ mod event;
 mod fast;
 mod gather;
 mod health;
+mod jerk;
 mod line;
 mod owed;
 mod release;

@@ -22,7 +22,9 @@ use crate::puppet::{Body, Model};
 use leader::FigureLeader;
 
 /// Work of one step, about microseconds: a tenth of a step at a hundred a second.
-pub(crate) const STEP_WORK: usize = 1000;
+const STEP_WORK: usize = 1000;
+/// The same while somebody waits for the puppet to play: most of a step, for there is nothing better to do with it.
+const STEP_WORK_AWAITED: usize = 6000;
 
 /// Who is judged: the same for all clips.
 #[derive(Clone, Debug)]
@@ -84,6 +86,13 @@ enum Work {
     Judged {
         track: Arc<JointTrack>,
     },
+}
+
+/// Whether somebody waits for the end of a rehearsal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Awaited {
+    No,
+    Yes,
 }
 
 /// The clip in rehearsal.
@@ -193,8 +202,13 @@ impl Rehearsal {
         self.work = Work::Judging { track, judge };
     }
 
-    /// Does about so much of what is to be done. The key times that slowing came to, once it did.
-    pub(crate) fn advance(&mut self, show: &Show, work: usize) -> Option<Result<Vec<f64>, String>> {
+    /// Does a step's piece of what is to be done, a larger one while somebody waits for the end of it. The key times
+    /// that slowing came to, once it did.
+    pub(crate) fn advance(&mut self, show: &Show, awaited: Awaited) -> Option<Result<Vec<f64>, String>> {
+        let work = match awaited {
+            Awaited::No => STEP_WORK,
+            Awaited::Yes => STEP_WORK_AWAITED,
+        };
         match &mut self.work {
             Work::Nothing => {}
             Work::Surveying {

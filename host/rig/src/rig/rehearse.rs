@@ -8,7 +8,7 @@ use motion::{JointTrack, Kinetics};
 use super::Rig;
 use crate::command::{EditCommand, PuppetCommand, PuppetPose};
 use crate::document::{self, Show};
-use crate::feasibility::{FeasibilityView, Judged, Rehearsal, STEP_WORK, StretchView};
+use crate::feasibility::{Awaited, FeasibilityView, Judged, Rehearsal, StretchView};
 use crate::puppet::{Body, BodyError, Mannequin, Model, PuppetPoseView, Seat};
 use crate::snapshot::{NoteLevel, PuppetView};
 
@@ -145,7 +145,12 @@ impl Rig {
             return;
         };
         let was_busy = rehearsing.rehearsal.is_busy();
-        let slowed = rehearsing.rehearsal.advance(&show, STEP_WORK);
+        let awaited = if rehearsing.play_waits {
+            Awaited::Yes
+        } else {
+            Awaited::No
+        };
+        let slowed = rehearsing.rehearsal.advance(&show, awaited);
         let done = was_busy && !rehearsing.rehearsal.is_busy();
         let play = done && std::mem::take(&mut rehearsing.play_waits);
         if done && !self.by_hand() {
