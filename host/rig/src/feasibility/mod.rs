@@ -88,11 +88,15 @@ enum Work {
     },
 }
 
-/// Whether somebody waits for the end of a rehearsal.
+/// How much of a rehearsal is done in one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Awaited {
-    No,
-    Yes,
+pub(crate) enum Pace {
+    /// A little: other things matter more.
+    Aside,
+    /// Much: somebody waits for the end of it.
+    Awaited,
+    /// All there is: nothing else goes on.
+    AtOnce,
 }
 
 /// The clip in rehearsal.
@@ -204,10 +208,11 @@ impl Rehearsal {
 
     /// Does a step's piece of what is to be done, a larger one while somebody waits for the end of it. The key times
     /// that slowing came to, once it did.
-    pub(crate) fn advance(&mut self, show: &Show, awaited: Awaited) -> Option<Result<Vec<f64>, String>> {
-        let work = match awaited {
-            Awaited::No => STEP_WORK,
-            Awaited::Yes => STEP_WORK_AWAITED,
+    pub(crate) fn advance(&mut self, show: &Show, pace: Pace) -> Option<Result<Vec<f64>, String>> {
+        let work = match pace {
+            Pace::Aside => STEP_WORK,
+            Pace::Awaited => STEP_WORK_AWAITED,
+            Pace::AtOnce => usize::MAX,
         };
         match &mut self.work {
             Work::Nothing => {}

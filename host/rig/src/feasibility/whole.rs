@@ -5,7 +5,7 @@ use std::sync::Arc;
 use device_profiles::{ProfileError, Profiles};
 use motion::{ChainError, ClipError};
 
-use super::{FeasibilityView, Judged, Rehearsal};
+use super::{FeasibilityView, Judged, Pace, Rehearsal};
 use crate::document::{JointClipDocError, Show};
 use crate::puppet::{Body, BodyError, Model};
 
@@ -81,7 +81,7 @@ pub fn judge(show: &Show, puppet: &str, profiles: &Profiles) -> Result<Vec<Judge
             continue;
         }
         while rehearsal.is_busy() {
-            rehearsal.advance(&chosen, usize::MAX);
+            rehearsal.advance(&chosen, Pace::AtOnce);
         }
         all.push(JudgedClip {
             clip: name.to_owned(),

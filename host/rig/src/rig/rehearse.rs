@@ -8,7 +8,7 @@ use motion::{JointTrack, Kinetics};
 use super::Rig;
 use crate::command::{EditCommand, PuppetCommand, PuppetPose};
 use crate::document::{self, Show};
-use crate::feasibility::{Awaited, FeasibilityView, Judged, Rehearsal, StretchView};
+use crate::feasibility::{FeasibilityView, Judged, Pace, Rehearsal, StretchView};
 use crate::puppet::{Body, BodyError, Mannequin, Model, PuppetPoseView, Seat};
 use crate::snapshot::{NoteLevel, PuppetView};
 
@@ -145,12 +145,12 @@ impl Rig {
             return;
         };
         let was_busy = rehearsing.rehearsal.is_busy();
-        let awaited = if rehearsing.play_waits {
-            Awaited::Yes
+        let pace = if rehearsing.play_waits {
+            Pace::Awaited
         } else {
-            Awaited::No
+            Pace::Aside
         };
-        let slowed = rehearsing.rehearsal.advance(&show, awaited);
+        let slowed = rehearsing.rehearsal.advance(&show, pace);
         let done = was_busy && !rehearsing.rehearsal.is_busy();
         let play = done && std::mem::take(&mut rehearsing.play_waits);
         if done && !self.by_hand() {
