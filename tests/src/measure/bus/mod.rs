@@ -117,7 +117,7 @@ pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
             ratio: None,
         });
     }
-    for setup in setups().into_iter() {
+    for setup in setups() {
         let mut cycles: Vec<(&'static str, Boxed)> = vec![("dialrig", ours::cycle(setup)?)];
         cycles.extend(peers::cycles(setup)?);
         let mut subjects: Vec<Subject<'_>> = cycles
