@@ -1,17 +1,24 @@
 //! One input device: a transport, the codec that understands it, and whether it is well.
 
+mod steps;
+
+use steps::Steps;
+
 use crate::clock::{Clock, Instant};
 use crate::codec::sgi_dial_box::SgiDialBox;
 use crate::codec::wacom_iv::WacomIv;
-use crate::codec::{Codec, Counters, Feedback, InputEvent, Outgoing, Stamped, Step, Surface};
+use crate::codec::{Codec, Counters, Feedback, InputEvent, Stamped, Surface};
 use crate::transport::{Transport, TransportError};
 use device_profiles::InputProfile;
 
 /// Bytes taken in one look; a kernel's terminal buffer is as large.
 const READ_BYTES: usize = 4096;
-/// Looks in one poll, so that a device that never stops talking cannot hold up the others: 256 KiB is two
-/// seconds of the fastest line there is.
-const READS_MAX: usize = 64;
+/// Bytes and looks in one poll, so that a device that never stops talking cannot hold up the others: 256 KiB is two
+/// seconds of the fastest line there is, 4096 reports half a second of the fastest device.
+const POLL_BYTES_MAX: usize = 256 * 1024;
+const READS_MAX: usize = 4096;
+/// Rounds of answers and new questions in one poll.
+const ROUNDS_MAX: usize = 16;
 
 /// How a device is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +44,9 @@ pub struct Device {
     begun: bool,
     silent_since: Option<Instant>,
     lost: Option<TransportError>,
-    outgoing: Outgoing,
+    steps: Steps,
+    /// The latest poll's time.
+    now: Instant,
     buffer: Vec<u8>,
 }
 
@@ -57,7 +66,8 @@ impl Device {
             begun: false,
             silent_since: None,
             lost: None,
-            outgoing: Outgoing::new(),
+            steps: Steps::default(),
+            now: Instant::ZERO,
             buffer: vec![0; READ_BYTES],
         }
     }
@@ -107,35 +117,42 @@ impl Device {
         now: Instant,
         events: &mut Vec<Stamped<InputEvent>>,
     ) -> Result<(), TransportError> {
-        let mut emit = |what| events.push(Stamped { at: now, what });
+        self.now = now;
         if !self.begun {
             self.begun = true;
-            self.codec.start(now, &mut self.outgoing);
+            self.codec.start(now, &mut self.steps.queue);
         }
         // What was sent before the line went is taken in first.
-        let mut ended = Ok(());
-        for _ in 0..READS_MAX {
-            match self.transport.read(&mut self.buffer) {
-                Ok(0) => break,
-                Ok(count) => self
-                    .codec
-                    .decode(self.buffer.get(..count).unwrap_or_default(), &mut emit),
-                Err(error) => {
-                    ended = Err(error);
-                    break;
-                }
+        self.take_in(now, events)?;
+        for _ in 0..ROUNDS_MAX {
+            let mut emit = |what| events.push(Stamped { at: now, what });
+            self.codec.advance(now, &mut self.steps.queue, &mut emit);
+            if !self
+                .steps
+                .run(now, self.transport.as_mut(), self.codec.as_mut())?
+            {
+                break;
             }
         }
-        ended?;
-        self.codec.advance(now, &mut self.outgoing, &mut emit);
-        self.send()
+        Ok(())
     }
 
-    fn send(&mut self) -> Result<(), TransportError> {
-        for step in self.outgoing.drain() {
-            match step {
-                Step::Bytes(bytes) => self.transport.write(&bytes)?,
-                Step::Baud(baud) => self.transport.set_baud(baud)?,
+    /// Decodes what has arrived; every event bears the time its last byte arrived.
+    fn take_in(&mut self, now: Instant, events: &mut Vec<Stamped<InputEvent>>) -> Result<(), TransportError> {
+        let mut taken = 0;
+        for _ in 0..READS_MAX {
+            let count = self.transport.read(&mut self.buffer)?;
+            if count == 0 {
+                break;
+            }
+            let at = self.transport.arrived().map_or(now, |at| at.min(now));
+            self.codec
+                .decode(self.buffer.get(..count).unwrap_or_default(), &mut |what| {
+                    events.push(Stamped { at, what })
+                });
+            taken += count;
+            if taken >= POLL_BYTES_MAX {
+                break;
             }
         }
         Ok(())
@@ -151,18 +168,20 @@ impl Device {
     /// Has the device show something; kept and sent later where it is not ready. A line that is gone is found
     /// out by the next poll as well.
     pub fn show(&mut self, feedback: &Feedback) -> Result<(), TransportError> {
-        self.codec.encode(feedback, &mut self.outgoing);
+        self.codec.encode(feedback, &mut self.steps.queue);
         if self.lost.is_some() || !self.begun {
-            self.outgoing.clear();
+            self.steps.clear();
             return Ok(());
         }
-        self.send()
+        self.steps
+            .run(self.now, self.transport.as_mut(), self.codec.as_mut())
+            .map(|_| ())
     }
 
     /// Goes on with a new line to the same device: it is asked again and shown everything again.
     pub fn reconnect(&mut self, transport: Box<dyn Transport>) {
         self.transport = transport;
-        self.outgoing.clear();
+        self.steps.clear();
         self.begun = false;
         self.silent_since = None;
         self.lost = None;
@@ -193,6 +212,16 @@ impl Device {
         self.codec.counters()
     }
 
+    /// Reports thrown away because they came faster than they were taken in.
+    pub fn dropped(&self) -> u64 {
+        self.transport.dropped()
+    }
+
+    /// Reports the device would not take.
+    pub fn refused(&self) -> u64 {
+        self.steps.refused
+    }
+
     /// The tablet's active area; `None` for what has none.
     pub fn surface(&self) -> Option<Surface> {
         self.codec.surface()
@@ -217,79 +246,4 @@ pub struct UnknownFormat {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::transport::memory::{MemoryTransport, pair};
-    use device_profiles::Profiles;
-    use std::time::Duration;
-
-    fn device() -> (Device, MemoryTransport) {
-        let (host, far) = pair();
-        let all = Profiles::builtin();
-        let profile = all.input("sgi-dialbox").expect("it is built in");
-        (
-            Device::of_profile("box", profile, Box::new(host)).expect("its format is known"),
-            far,
-        )
-    }
-
-    fn at_ms(ms: u64) -> Instant {
-        Instant::ZERO.after(Duration::from_millis(ms))
-    }
-
-    fn read_all(far: &mut MemoryTransport) -> Vec<u8> {
-        let mut buffer = [0; 256];
-        let count = far.read(&mut buffer).expect("the host is there");
-        buffer[..count].to_vec()
-    }
-
-    #[test]
-    fn silence_becomes_presence_with_the_first_answer() {
-        let (mut device, mut far) = device();
-        let mut events = Vec::new();
-        assert_eq!(
-            device.poll(at_ms(5), &mut events),
-            Health::Silent { since: at_ms(5) }
-        );
-        assert_eq!(read_all(&mut far), [0x20]);
-        assert_eq!(
-            device.poll(at_ms(9), &mut events),
-            Health::Silent { since: at_ms(5) }
-        );
-        far.write(&[0x20]).expect("the host is there");
-        assert_eq!(device.poll(at_ms(12), &mut events), Health::Present);
-        assert_eq!(
-            events,
-            [Stamped {
-                at: at_ms(12),
-                what: InputEvent::Started
-            }]
-        );
-    }
-
-    #[test]
-    fn a_lost_device_lets_go_and_comes_back_with_its_lamps() {
-        let (mut device, mut far) = device();
-        let mut events = Vec::new();
-        device.poll(at_ms(0), &mut events);
-        far.write(&[0x20]).expect("the host is there");
-        device.poll(at_ms(1), &mut events);
-        device.show(&Feedback::Lamps(4)).expect("the box is there");
-        far.write(&[0xD8]).expect("the host is there");
-        drop(far);
-        events.clear();
-        assert_eq!(device.poll(at_ms(2), &mut events), Health::Lost);
-        let button = |down| InputEvent::Button { control: 0, down };
-        let said: Vec<_> = events.drain(..).map(|e| e.what).collect();
-        assert_eq!(said, [button(true), button(false)]);
-        assert!(device.lost().is_some_and(TransportError::is_gone));
-
-        let (host, mut far) = pair();
-        device.reconnect(Box::new(host));
-        device.poll(at_ms(3), &mut events);
-        far.write(&[0x20]).expect("the host is there");
-        assert_eq!(device.poll(at_ms(4), &mut events), Health::Present);
-        assert!(read_all(&mut far).ends_with(&[0x75, 4, 0, 0, 0]));
-        assert_eq!(events.last().map(|e| &e.what), Some(&InputEvent::Restarted));
-    }
-}
+mod tests;

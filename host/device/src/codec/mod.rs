@@ -7,21 +7,27 @@ pub mod sgi_dial_box;
 pub mod wacom_iv;
 
 pub use event::{Feedback, InputEvent, PenSample, Picture, RingStyle, Stamped, Surface, Tool};
-pub use outgoing::{Outgoing, Step};
+pub use outgoing::{Answer, Outgoing, Step};
 
 use crate::clock::Instant;
 
 /// One end of a conversation with a device.
 ///
 /// The caller brings bytes to [`decode`](Codec::decode) as they come, calls [`advance`](Codec::advance) after
-/// that and whenever time has passed, and sends what was put out. How the bytes are cut into pieces makes no
-/// difference to the events.
+/// that and whenever time has passed, and sends what was put out. How the bytes of a stream are cut into pieces
+/// makes no difference to the events; where the line keeps reports apart, one call is one report, exactly as the
+/// device sent it: with its id first only where the device numbers its reports.
 pub trait Codec: Send {
     /// Begins (or begins again) whatever the device needs before it reports.
     fn start(&mut self, now: Instant, out: &mut Outgoing);
 
     /// Takes bytes from the device. Malformed ones are counted and skipped.
     fn decode(&mut self, bytes: &[u8], emit: &mut dyn FnMut(InputEvent));
+
+    /// Takes what came back for a question, in the order they were asked.
+    fn answer(&mut self, answer: Answer, now: Instant, out: &mut Outgoing) {
+        let _ = (answer, now, out);
+    }
 
     /// Goes on with the conversation: next questions, time limits, restarts.
     fn advance(&mut self, now: Instant, out: &mut Outgoing, emit: &mut dyn FnMut(InputEvent));

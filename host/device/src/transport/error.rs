@@ -2,7 +2,7 @@
 
 use std::io::{self, ErrorKind};
 
-/// Every variant names the address.
+/// Every variant that has one names the address.
 #[derive(Debug, thiserror::Error)]
 pub enum TransportError {
     /// The far end was there and is not any more.
@@ -38,6 +38,12 @@ pub enum TransportError {
     Address {
         /// As it was asked for.
         address: String,
+    },
+    /// Lines of this kind have no such thing.
+    #[error("a line of this kind has no {what}")]
+    Unsupported {
+        /// What was asked for.
+        what: &'static str,
     },
     /// Anything else, in the system's words.
     #[error("{address}: {source}")]

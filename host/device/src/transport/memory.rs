@@ -1,5 +1,7 @@
 //! Two ends of a line inside the program: what a simulated device hangs on.
 
+pub mod reports;
+
 use super::{Boundary, Transport, TransportError};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

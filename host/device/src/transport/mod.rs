@@ -8,6 +8,7 @@ pub mod memory;
 pub mod ports;
 pub mod pty;
 pub mod serial;
+pub mod stamped;
 pub mod tcp;
 mod waiting;
 
@@ -24,7 +25,7 @@ use std::time::Duration;
 pub enum Boundary {
     /// Any piece of a stream (serial, TCP).
     Stream,
-    /// Exactly one report (HID).
+    /// Exactly one report (HID), as the device sent it: its id first only where the device numbers its reports.
     Reports,
 }
 
@@ -61,6 +62,45 @@ pub trait Transport: Send {
         false
     }
 
+    /// Sends a feature report, its id first (0 where the device numbers none). A device that refuses is no reason to
+    /// think it gone.
+    fn write_feature(&mut self, _bytes: &[u8]) -> Result<(), TransportError> {
+        Err(TransportError::Unsupported {
+            what: "feature reports",
+        })
+    }
+
+    /// Reads the feature report `id` into `buffer`, id first, and returns its length. `None`: asked, and not answered
+    /// yet; the same call later fetches the answer.
+    fn read_feature(&mut self, _id: u8, _buffer: &mut [u8]) -> Result<Option<usize>, TransportError> {
+        Err(TransportError::Unsupported {
+            what: "feature reports",
+        })
+    }
+
+    /// Reads a USB string descriptor with its head of two bytes. `None`: not answered yet, as above.
+    fn read_string(&mut self, _index: u8) -> Result<Option<Vec<u8>>, TransportError> {
+        Err(TransportError::Unsupported { what: "USB strings" })
+    }
+
+    /// The HID report descriptor, which the system read when the device was plugged in.
+    fn report_descriptor(&mut self) -> Result<Vec<u8>, TransportError> {
+        Err(TransportError::Unsupported {
+            what: "a report descriptor",
+        })
+    }
+
+    /// When the last byte of what the latest [`Transport::read`] returned arrived, where that was noted; never later
+    /// than the read.
+    fn arrived(&self) -> Option<Instant> {
+        None
+    }
+
+    /// Reports thrown away so far because they came faster than they were read.
+    fn dropped(&self) -> u64 {
+        0
+    }
+
     /// What the system can wait for together with others ([`wait_any`]); none where bytes come from inside the
     /// program.
     fn descriptor(&self) -> Option<BorrowedFd<'_>> {
@@ -91,6 +131,30 @@ impl Transport for Box<dyn Transport> {
 
     fn ready(&mut self) -> bool {
         (**self).ready()
+    }
+
+    fn write_feature(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
+        (**self).write_feature(bytes)
+    }
+
+    fn read_feature(&mut self, id: u8, buffer: &mut [u8]) -> Result<Option<usize>, TransportError> {
+        (**self).read_feature(id, buffer)
+    }
+
+    fn read_string(&mut self, index: u8) -> Result<Option<Vec<u8>>, TransportError> {
+        (**self).read_string(index)
+    }
+
+    fn report_descriptor(&mut self) -> Result<Vec<u8>, TransportError> {
+        (**self).report_descriptor()
+    }
+
+    fn arrived(&self) -> Option<Instant> {
+        (**self).arrived()
+    }
+
+    fn dropped(&self) -> u64 {
+        (**self).dropped()
     }
 
     fn descriptor(&self) -> Option<BorrowedFd<'_>> {

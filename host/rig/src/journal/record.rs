@@ -35,6 +35,9 @@ pub enum Record {
         address: String,
         /// Number of the opening, counted over all ports.
         port: u32,
+        /// Whether each read is one report.
+        #[serde(default, skip_serializing_if = "is_false")]
+        reports: bool,
         /// Why not, if it failed.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         failed: Option<Failure>,
@@ -47,6 +50,22 @@ pub enum Record {
         call: u64,
         /// The bytes, two hexadecimal digits each.
         hex: String,
+        /// When its last byte arrived, nanoseconds of machine time, where that was noted.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        at: Option<u64>,
+    },
+    /// A question beside the reads was answered: a feature report, a string or the report descriptor.
+    Answer {
+        /// Number of the opening.
+        port: u32,
+        /// Which question of this port it was, from 0; those that were not answered yet are not written down.
+        call: u64,
+        /// The answer, two hexadecimal digits a byte.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        hex: Option<String>,
+        /// Or how it failed. Setting a feature report is a question that only failure answers.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        failure: Option<Failure>,
     },
     /// A read or write failed.
     Fail {
@@ -61,6 +80,12 @@ pub enum Record {
     },
     /// Last line: what came out, as digests.
     End(Ending),
+}
+
+// The shape `skip_serializing_if` wants.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// How an operation on a port failed, as far as a replay needs to know.

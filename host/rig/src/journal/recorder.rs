@@ -128,6 +128,9 @@ impl Ports for RecordingPorts {
         log.line(&Record::Open {
             address: address.to_owned(),
             port,
+            reports: opened
+                .as_ref()
+                .is_ok_and(|line| line.boundary() == Boundary::Reports),
             failed,
         });
         let key = format!("{port} {address}");
@@ -141,6 +144,7 @@ impl Ports for RecordingPorts {
             key,
             reads: 0,
             writes: 0,
+            questions: 0,
         }))
     }
 
@@ -156,6 +160,26 @@ struct RecordedTransport {
     key: String,
     reads: u64,
     writes: u64,
+    questions: u64,
+}
+
+impl RecordedTransport {
+    /// Writes down what a question brought; `None`: nothing yet.
+    fn note(&mut self, answered: Result<Option<&[u8]>, &TransportError>) {
+        let (port, call) = (self.port, self.questions);
+        self.questions += 1;
+        let (hex, failure) = match answered {
+            Ok(None) => return,
+            Ok(Some(bytes)) => (Some(to_hex(bytes)), None),
+            Err(error) => (None, Some(failure(error))),
+        };
+        self.recorder.lock().line(&Record::Answer {
+            port,
+            call,
+            hex,
+            failure,
+        });
+    }
 }
 
 impl Transport for RecordedTransport {
@@ -171,7 +195,8 @@ impl Transport for RecordedTransport {
             Ok(0) => {}
             Ok(count) => {
                 let hex = to_hex(buffer.get(..*count).unwrap_or_default());
-                self.recorder.lock().line(&Record::Read { port, call, hex });
+                let at = self.inner.arrived().map(Instant::as_nanos);
+                self.recorder.lock().line(&Record::Read { port, call, hex, at });
             }
             Err(error) => {
                 self.recorder.lock().line(&Record::Fail {
@@ -206,6 +231,44 @@ impl Transport for RecordedTransport {
 
     fn set_baud(&mut self, baud: u32) -> Result<(), TransportError> {
         self.inner.set_baud(baud)
+    }
+
+    fn write_feature(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
+        let written = self.inner.write_feature(bytes);
+        if let Some(digest) = self.recorder.lock().written.get_mut(&self.key) {
+            digest.bytes(bytes);
+        }
+        self.note(written.as_ref().map(|()| None));
+        written
+    }
+
+    fn read_feature(&mut self, id: u8, buffer: &mut [u8]) -> Result<Option<usize>, TransportError> {
+        let answered = self.inner.read_feature(id, buffer);
+        self.note(match &answered {
+            Ok(count) => Ok(count.and_then(|count| buffer.get(..count))),
+            Err(error) => Err(error),
+        });
+        answered
+    }
+
+    fn read_string(&mut self, index: u8) -> Result<Option<Vec<u8>>, TransportError> {
+        let answered = self.inner.read_string(index);
+        self.note(answered.as_ref().map(Option::as_deref));
+        answered
+    }
+
+    fn report_descriptor(&mut self) -> Result<Vec<u8>, TransportError> {
+        let answered = self.inner.report_descriptor();
+        self.note(answered.as_deref().map(Some));
+        answered
+    }
+
+    fn arrived(&self) -> Option<Instant> {
+        self.inner.arrived()
+    }
+
+    fn dropped(&self) -> u64 {
+        self.inner.dropped()
     }
 
     fn wait(&mut self, clock: &dyn Clock, until: Instant) {
