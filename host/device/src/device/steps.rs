@@ -51,17 +51,18 @@ impl Steps {
                     }
                 }
                 Step::Baud(baud) => transport.set_baud(baud)?,
-                Step::Feature(bytes) => {
-                    if let Err(error) = transport.write_feature(&bytes) {
+                Step::Feature(bytes) => match set_feature(transport, &bytes)? {
+                    Set::Done => {}
+                    Set::Pending => {
+                        self.queue.put_back(Step::Feature(bytes));
+                        break;
+                    }
+                    Set::Refused(answer) => {
                         self.refused += 1;
-                        let answer = Answer::Feature {
-                            id: bytes.first().copied().unwrap_or_default(),
-                            bytes: Err(bearable(error)?),
-                        };
                         codec.answer(answer, now, &mut self.queue);
                         answered = true;
                     }
-                }
+                },
                 Step::Wait(span) => self.idle_until = Some(now.after(span)),
                 question => match ask(transport, &question)? {
                     Some(answer) => {
@@ -85,6 +86,23 @@ fn bearable(error: TransportError) -> Result<String, TransportError> {
         Err(error)
     } else {
         Ok(error.to_string())
+    }
+}
+
+enum Set {
+    Done,
+    Pending,
+    Refused(Answer),
+}
+
+fn set_feature(transport: &mut dyn Transport, bytes: &[u8]) -> Result<Set, TransportError> {
+    match transport.write_feature(bytes) {
+        Ok(Some(())) => Ok(Set::Done),
+        Ok(None) => Ok(Set::Pending),
+        Err(error) => Ok(Set::Refused(Answer::Feature {
+            id: bytes.first().copied().unwrap_or_default(),
+            bytes: Err(bearable(error)?),
+        })),
     }
 }
 

@@ -62,9 +62,9 @@ pub trait Transport: Send {
         false
     }
 
-    /// Sends a feature report, its id first (0 where the device numbers none). A device that refuses is no reason to
-    /// think it gone.
-    fn write_feature(&mut self, _bytes: &[u8]) -> Result<(), TransportError> {
+    /// Sets a feature report, its id first (0 where the device numbers none). `None`: begun, and not done yet; the
+    /// same call later tells. A device that refuses is no reason to think it gone.
+    fn write_feature(&mut self, _bytes: &[u8]) -> Result<Option<()>, TransportError> {
         Err(TransportError::Unsupported {
             what: "feature reports",
         })
@@ -133,7 +133,7 @@ impl Transport for Box<dyn Transport> {
         (**self).ready()
     }
 
-    fn write_feature(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
+    fn write_feature(&mut self, bytes: &[u8]) -> Result<Option<()>, TransportError> {
         (**self).write_feature(bytes)
     }
 

@@ -268,7 +268,9 @@ fn port_finding(ward: &Ward, error: DoctorError, adapter: Option<&Adapter>) -> R
             TransportError::Busy { address } => of(Kind::PortBusy, why)
                 .mended_by(format!("close the other program: `fuser {address}` names it")),
             TransportError::NotFound { .. } | TransportError::Gone { .. } => of(Kind::PortMissing, why),
-            TransportError::Address { .. } | TransportError::Io { .. } => return Err(error),
+            TransportError::Address { .. }
+            | TransportError::Unsupported { .. }
+            | TransportError::Io { .. } => return Err(error),
         }),
         _ => Err(error),
     }

@@ -63,7 +63,7 @@ pub enum Record {
         /// The answer, two hexadecimal digits a byte.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         hex: Option<String>,
-        /// Or how it failed. Setting a feature report is a question that only failure answers.
+        /// Or how it failed. Setting a feature report is a question whose answer is empty.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         failure: Option<Failure>,
     },

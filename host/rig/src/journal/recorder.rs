@@ -233,12 +233,13 @@ impl Transport for RecordedTransport {
         self.inner.set_baud(baud)
     }
 
-    fn write_feature(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
+    fn write_feature(&mut self, bytes: &[u8]) -> Result<Option<()>, TransportError> {
         let written = self.inner.write_feature(bytes);
-        if let Some(digest) = self.recorder.lock().written.get_mut(&self.key) {
+        if let (Ok(Some(())), Some(digest)) = (&written, self.recorder.lock().written.get_mut(&self.key)) {
             digest.bytes(bytes);
         }
-        self.note(written.as_ref().map(|()| None));
+        // Done is an answer without bytes.
+        self.note(written.as_ref().map(|done| done.map(|()| [].as_slice())));
         written
     }
 

@@ -128,16 +128,13 @@ impl Script {
 
 /// Notes what happened on a port with that port; the error says what is wrong with the record.
 fn happen(ports: &mut [Opening], record: Record) -> Result<(), String> {
-    let mut opening = |port: u32| {
-        ports
-            .get_mut(port as usize)
-            .ok_or_else(|| format!("unknown port {port}"))
-    };
     let bytes = |hex: &str| from_hex(hex).ok_or_else(|| "bytes that are not hexadecimal".to_owned());
     match record {
         Record::Read { port, call, hex, at } => {
             let at = at.map(Instant::from_nanos);
-            opening(port)?.reads.push_back((call, Ok(bytes(&hex)?), at));
+            opening(ports, port)?
+                .reads
+                .push_back((call, Ok(bytes(&hex)?), at));
         }
         Record::Answer {
             port,
@@ -150,20 +147,26 @@ fn happen(ports: &mut [Opening], record: Record) -> Result<(), String> {
                 (None, Some(failure)) => Err(failure),
                 _ => return Err("an answer that is not either bytes or a failure".to_owned()),
             };
-            opening(port)?.answers.push_back((call, answer));
+            opening(ports, port)?.answers.push_back((call, answer));
         }
         Record::Fail {
             port,
             call,
             write: true,
             failure,
-        } => opening(port)?.writes.push_back((call, failure)),
+        } => opening(ports, port)?.writes.push_back((call, failure)),
         Record::Fail {
             port, call, failure, ..
-        } => opening(port)?.reads.push_back((call, Err(failure), None)),
+        } => opening(ports, port)?.reads.push_back((call, Err(failure), None)),
         Record::Start { .. } | Record::Step { .. } | Record::Open { .. } | Record::End(_) => {}
     }
     Ok(())
+}
+
+fn opening(ports: &mut [Opening], port: u32) -> Result<&mut Opening, String> {
+    ports
+        .get_mut(port as usize)
+        .ok_or_else(|| format!("unknown port {port}"))
 }
 
 /// Ports that give back what was recorded, in the order the ports were opened.
@@ -253,8 +256,8 @@ impl Transport for ReplayTransport {
         }
     }
 
-    fn write_feature(&mut self, _bytes: &[u8]) -> Result<(), TransportError> {
-        self.answer().map(|_| ())
+    fn write_feature(&mut self, _bytes: &[u8]) -> Result<Option<()>, TransportError> {
+        Ok(self.answer()?.map(drop))
     }
 
     fn read_feature(&mut self, _id: u8, buffer: &mut [u8]) -> Result<Option<usize>, TransportError> {

@@ -185,9 +185,9 @@ impl Transport for ReportTransport {
         Ok(())
     }
 
-    fn write_feature(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
-        self.there()?.noticed.push_back(Noticed::Feature(bytes.to_vec()));
-        Ok(())
+    fn write_feature(&mut self, bytes: &[u8]) -> Result<Option<()>, TransportError> {
+        let done = self.answer(Noticed::Feature(bytes.to_vec()), |_| Some(Vec::new()))?;
+        Ok(done.map(drop))
     }
 
     fn read_feature(&mut self, id: u8, buffer: &mut [u8]) -> Result<Option<usize>, TransportError> {
@@ -257,7 +257,7 @@ mod tests {
         far.set_feature(2, &[2, 9]);
         let mut buffer = [0; 4];
         assert_eq!(host.read_feature(2, &mut buffer).unwrap(), Some(2));
-        host.write_feature(&[2, 2]).unwrap();
+        assert_eq!(host.write_feature(&[2, 2]).unwrap(), Some(()));
         let all: Vec<_> = std::iter::from_fn(|| far.noticed()).collect();
         assert_eq!(
             all,
