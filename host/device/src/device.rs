@@ -148,7 +148,7 @@ impl Device {
             let at = self.transport.arrived().map_or(now, |at| at.min(now));
             self.codec
                 .decode(self.buffer.get(..count).unwrap_or_default(), &mut |what| {
-                    events.push(Stamped { at, what })
+                    events.push(Stamped { at, what });
                 });
             taken += count;
             if taken >= POLL_BYTES_MAX {

@@ -64,16 +64,14 @@ impl Steps {
                     }
                 },
                 Step::Wait(span) => self.idle_until = Some(now.after(span)),
-                question => match ask(transport, &question)? {
-                    Some(answer) => {
-                        codec.answer(answer, now, &mut self.queue);
-                        answered = true;
-                    }
-                    None => {
+                question => {
+                    let Some(answer) = ask(transport, &question)? else {
                         self.queue.put_back(question);
                         break;
-                    }
-                },
+                    };
+                    codec.answer(answer, now, &mut self.queue);
+                    answered = true;
+                }
             }
         }
         Ok(answered)

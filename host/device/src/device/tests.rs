@@ -93,11 +93,8 @@ impl Codec for Asking {
     fn start(&mut self, _now: Instant, out: &mut Outgoing) {
         self.steps.iter().for_each(|step| out.step(step.clone()));
     }
-    fn decode(&mut self, bytes: &[u8], emit: &mut dyn FnMut(InputEvent)) {
-        emit(InputEvent::Button {
-            control: bytes[0].into(),
-            down: true,
-        });
+    fn decode(&mut self, _bytes: &[u8], emit: &mut dyn FnMut(InputEvent)) {
+        emit(InputEvent::Restarted);
     }
     fn answer(&mut self, answer: Answer, now: Instant, _out: &mut Outgoing) {
         self.hear(format!("{} ms {answer:?}", now.as_micros() / 1000));

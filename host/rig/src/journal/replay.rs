@@ -49,14 +49,17 @@ pub struct Replayed {
     pub commands: Vec<Command>,
 }
 
+/// Bytes, or how reading them failed.
+type Came = Result<Vec<u8>, Failure>;
+
 #[derive(Debug, Default)]
 struct Opening {
     address: String,
     failed: Option<Failure>,
     reports: bool,
-    reads: VecDeque<(u64, Result<Vec<u8>, Failure>, Option<Instant>)>,
+    reads: VecDeque<(u64, Came, Option<Instant>)>,
     writes: VecDeque<(u64, Failure)>,
-    answers: VecDeque<(u64, Result<Vec<u8>, Failure>)>,
+    answers: VecDeque<(u64, Came)>,
 }
 
 impl Script {
