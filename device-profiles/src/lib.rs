@@ -19,9 +19,10 @@ mod status;
 pub use error::ProfileError;
 pub use input::{
     Bus, ByteMatch, ByteOrder, CalComp, Control, ControlClass, ControlKind, ControlUnit, Emits, Encoding,
-    FORMATS, Field, FieldName, HexBytes, Identify, InitAction, InitStep, InputKind, InputProfile, Layout,
-    Line, Lines, Match, MidiAddress, Osc, Output, OutputKind, Parity, Piece, Place, Quirk, RangeFrom, Repeat,
-    Report, Reports, RingCoding, Sgi, Slots, Surface, Tool, ToolProfile, Used, WacomSerial,
+    FORMATS, Field, FieldName, Firmata, HexBytes, HpDials, Identify, InitAction, InitStep, InputKind,
+    InputProfile, Layout, Line, Lines, Match, MidiAddress, Mm, MmFraming, Osc, Output, OutputKind, Parity,
+    Piece, Place, Quirk, RangeFrom, Repeat, Report, Reports, RingCoding, Sgi, Slots, Surface, Tool,
+    ToolProfile, Used, WacomSerial,
 };
 pub use policy::{Policy, Reaction};
 pub use profiles::{Kind, Profiles};

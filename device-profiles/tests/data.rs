@@ -53,8 +53,10 @@ fn every_file_reads_bears_its_source_and_a_name_of_its_own() {
             "{}: a source is wanted, found \"{source}\"",
             file.display()
         );
-        keys.push(key.to_owned());
-        names.push(name.to_lowercase());
+        // A profile may bear the name of its layout: nobody asks for one where the other could be meant.
+        let shelf = usize::from(matches!(profile, Kind::Layout(_)));
+        keys.push((shelf, key.to_owned()));
+        names.push((shelf, name.to_lowercase()));
     }
     for list in [&mut keys, &mut names] {
         let count = list.len();

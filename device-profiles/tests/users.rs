@@ -16,7 +16,7 @@ fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
 
 #[test]
 fn a_users_profile_takes_the_built_in_ones_place() {
-    let text = include_str!("../inputs/sgi-dialbox.toml")
+    let text = include_str!("../inputs/boxes/sgi-dialbox.toml")
         .replace("counts_per_turn = 256.0", "counts_per_turn = 200.0");
     let folder = folder(
         "own",
@@ -78,7 +78,7 @@ fn check_refused(name: &str, text: &str, message: &str, place: &str) {
     );
 }
 
-const KNOBS: &str = include_str!("../inputs/sgi-dialbox.toml");
+const KNOBS: &str = include_str!("../inputs/boxes/sgi-dialbox.toml");
 const PUPPET: &str = include_str!("../puppets/marionette.toml");
 const SERVO: &str = include_str!("../servos/xl330-m288.toml");
 

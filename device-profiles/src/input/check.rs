@@ -44,14 +44,8 @@ impl InputProfile {
             if given.any(String::is_empty) {
                 flaw("a text to match must not be empty");
             }
-            let named = m.vendor.is_some()
-                || m.usage.is_some()
-                || m.identify.is_some()
-                || m.port.is_some()
-                || m.serial_text.is_some()
-                || m.product_text.is_some();
             // What is on a serial line may have nothing to be known by: then it is named by hand.
-            if !named && m.bus != super::Bus::Serial {
+            if m.by_hand_only() && m.bus != super::Bus::Serial {
                 flaw("expected a vendor, usage, text or port to be known by, found none");
             }
         }

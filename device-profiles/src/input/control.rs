@@ -47,6 +47,9 @@ pub struct Control {
     /// The pins of a board: one of an analog control or button, two of an encoder, group after group.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pins: Vec<u8>,
+    /// The board's own resistor holds the pin high, so that pressed is low.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub pull_up: bool,
 }
 
 /// Sorts of control.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// One way of being recognised. All that is given must hold; a device is the profile's when any of its matches
-/// holds. Where several profiles fit, the one that asked for more strings is meant, then for more lengths.
+/// holds. Where several fit, one with a vendor and product, or with the serial number's text, goes before one without.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Match {
@@ -98,6 +98,71 @@ impl Match {
     pub fn id(&self) -> Option<String> {
         Some(format!("{:04x}:{:04x}", self.vendor?, self.product?))
     }
+
+    /// Whether it says nothing by which a program could tell the device: then a person has to name the profile.
+    pub fn by_hand_only(&self) -> bool {
+        self.vendor.is_none()
+            && self.usage.is_none()
+            && self.identify.is_none()
+            && self.port.is_none()
+            && self.product_text.is_none()
+            && self.serial_text.is_none()
+    }
+
+    /// Whether there may be a device that both fit.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        if self.bus != other.bus || self.by_hand_only() || other.by_hand_only() {
+            return false;
+        }
+        // The one with ids or a serial number goes before: it is known without asking.
+        let known = |m: &Self| m.id().is_some() || m.serial_text.is_some();
+        if known(self) != known(other) {
+            return false;
+        }
+        let told_apart = differ(self.vendor, other.vendor)
+            || differ(self.product, other.product)
+            || differ(self.interface, other.interface)
+            || differ(self.usage, other.usage)
+            || differ(self.port, other.port)
+            || disjoint(&self.input_report_bytes, &other.input_report_bytes)
+            || disjoint(&self.output_report_bytes, &other.output_report_bytes)
+            || disjoint(&self.feature_report_bytes, &other.feature_report_bytes)
+            || texts_differ(self.maker_text.as_ref(), other.maker_text.as_ref())
+            || texts_differ(self.product_text.as_ref(), other.product_text.as_ref())
+            || texts_differ(self.serial_text.as_ref(), other.serial_text.as_ref())
+            || texts_differ(
+                self.identify.as_ref().map(|i| &i.prefix),
+                other.identify.as_ref().map(|i| &i.prefix),
+            )
+            || self
+                .strings
+                .iter()
+                .any(|(index, text)| texts_differ(Some(text), other.strings.get(index)))
+            || self.excludes(other)
+            || other.excludes(self);
+        !told_apart
+    }
+
+    /// Whether a text that the other asks for is one that this must not have.
+    fn excludes(&self, other: &Self) -> bool {
+        self.not_strings.iter().any(|(index, texts)| {
+            let asked = other.strings.get(index);
+            asked.is_some_and(|asked| texts.iter().any(|text| asked.starts_with(text.as_str())))
+        })
+    }
+}
+
+fn differ<T: PartialEq>(a: Option<T>, b: Option<T>) -> bool {
+    matches!((a, b), (Some(a), Some(b)) if a != b)
+}
+
+fn disjoint(a: &[u16], b: &[u16]) -> bool {
+    !a.is_empty() && !b.is_empty() && !a.iter().any(|length| b.contains(length))
+}
+
+/// Beginnings of one text are compatible when one begins with the other.
+fn texts_differ(a: Option<&String>, b: Option<&String>) -> bool {
+    matches!((a, b), (Some(a), Some(b)) if !a.starts_with(b.as_str()) && !b.starts_with(a.as_str()))
 }
 
 /// TOML knows only words as keys.

@@ -28,7 +28,7 @@ pub use matching::{Bus, Identify, Match};
 pub use output::{Output, OutputKind, Place, RingCoding};
 pub use quirk::Quirk;
 pub use report::{ByteMatch, ByteOrder, Emits, Field, FieldName, Piece, Repeat, Report, Slots, Used};
-pub use special::{CalComp, Lines, Osc, Sgi, WacomSerial};
+pub use special::{CalComp, Firmata, HpDials, Lines, Mm, MmFraming, Osc, Sgi, WacomSerial};
 pub use surface::{Surface, Tool, ToolProfile};
 
 use crate::Status;
@@ -90,12 +90,21 @@ pub struct InputProfile {
     /// Of formats `wacom-iv` and `wacom-v`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wacom: Option<WacomSerial>,
-    /// Of format `calcomp`.
+    /// Of format `mm`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mm: Option<Mm>,
+    /// Of formats `calcomp` and `gtco`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub calcomp: Option<CalComp>,
     /// Of format `sgi-dial-box`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sgi: Option<Sgi>,
+    /// Of format `hp-dial-box`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hp: Option<HpDials>,
+    /// Of format `firmata`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub firmata: Option<Firmata>,
     /// Of format `deej`: lines of numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lines: Option<Lines>,

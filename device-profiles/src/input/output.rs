@@ -42,7 +42,7 @@ pub struct Output {
     /// report then carries all of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<Place>,
-    /// Where the output's number goes in the report.
+    /// Where the output's number goes in the report; of a haptic output, the milliseconds between two clicks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub index: Option<Place>,
     /// The MIDI messages that show it.
@@ -61,6 +61,9 @@ pub struct Output {
     /// Added to the output's number for `{n}`.
     #[serde(default, skip_serializing_if = "is_default")]
     pub first: u8,
+    /// The pins of a board, one of each lamp; with more than two `levels` they can dim.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pins: Vec<u8>,
     /// The OSC address that shows it; `{n}` stands for its number in the group, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub address: Option<String>,

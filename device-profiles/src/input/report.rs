@@ -111,7 +111,8 @@ pub enum Emits {
 /// One number in a report, or a row of them.
 ///
 /// It is made so: the bits are collected; `invert` flips all of them; `nothing` is compared; the sign is applied;
-/// then it is multiplied by `scale`, and `add` is added. Fields of one dial's name in one report add up.
+/// then it is multiplied by `scale`, and `add` is added. Fields of one dial's name in one report add up, and so do
+/// those of the wheel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Field {

@@ -20,15 +20,67 @@ pub struct WacomSerial {
     pub eraser_bit: u8,
 }
 
-/// CalComp's high-resolution binary packets.
+/// Summagraphics MM and its kin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CalComp {
-    /// The bit of the fourth byte that is 1 when the tool is out of proximity: readers disagree (6 or 5).
-    pub proximity_bit: u8,
-    /// Whether the buttons are a number (16-button puck) instead of one bit each.
+pub struct Mm {
+    /// How reports come.
+    pub framing: MmFraming,
+    /// A puck's button code has a bit for each, instead of the number of the one pressed.
     #[serde(default, skip_serializing_if = "is_default")]
-    pub buttons_are_a_number: bool,
+    pub buttons_are_bits: bool,
+    /// Counts of movement from one report to the next, 0 to 95; 0 reports all the time.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub increment: u8,
+    /// The tablet counts y from the lower edge.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub y_up: bool,
+}
+
+/// How reports of the MM family come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MmFraming {
+    /// Five bytes: places.
+    Absolute,
+    /// Three bytes: moves.
+    Relative,
+    /// Seven bytes: places and a third axis (AceCad Flair).
+    Flair,
+    /// Lines of text.
+    Ascii,
+}
+
+/// CalComp's high-resolution binary packets; formats `calcomp` and `gtco`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CalComp {
+    /// The bit of the fourth byte that is 1 when the tool is out of proximity: readers disagree (6 or 5). Absent:
+    /// no bit tells.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proximity_bit: Option<u8>,
+    /// The five bits of the buttons carry a pen's pressure.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub pressure_for_buttons: bool,
+    /// The tablet counts y from the lower edge.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub y_up: bool,
+}
+
+/// Hewlett-Packard's dial boxes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HpDials {
+    /// Whether a report says where the dial stands; otherwise how far it has moved.
+    pub absolute: bool,
+}
+
+/// Boards that run Firmata.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Firmata {
+    /// Milliseconds from one report to the next; the protocol's own is 19.
+    pub interval_ms: u16,
 }
 
 /// The SGI dial and button box and its kin.

@@ -22,6 +22,9 @@ pub struct Surface {
     /// Largest pressure; 0 where none is felt.
     #[serde(default, skip_serializing_if = "is_default")]
     pub pressure: u32,
+    /// Pressure above which the tip is down, where no bit says so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_pressure: Option<u32>,
     /// Steps of tilt in a radian; absent: no tilt is reported.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt_steps_per_rad: Option<f64>,
