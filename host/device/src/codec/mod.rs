@@ -1,10 +1,25 @@
 //! What the bytes of an input device say, and how to talk back. State machines over bytes and time: no
 //! transport, no clock. One file per wire format, named as the page in `docs/protocols/`.
 
+pub mod calcomp;
+pub mod deej;
+pub mod dial_reports;
+mod dialogue;
 mod event;
+pub mod firmata;
+pub mod gtco;
+mod held;
+mod lines;
+pub mod mm;
+pub mod monome_arc;
 mod outgoing;
+mod overdue;
+mod phased;
 pub mod sgi_dial_box;
+#[cfg(test)]
+mod trial;
 pub mod wacom_iv;
+pub mod wacom_v;
 
 pub use event::{Feedback, InputEvent, PenSample, Picture, RingStyle, Stamped, Surface, Tool};
 pub use outgoing::{Answer, Outgoing, Step};

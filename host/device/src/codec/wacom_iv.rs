@@ -2,7 +2,7 @@
 //!
 //! Source: `docs/protocols/wacom-iv.md`.
 
-mod answer;
+pub(in crate::codec) mod answer;
 mod conversation;
 mod packet;
 

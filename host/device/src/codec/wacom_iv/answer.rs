@@ -2,7 +2,7 @@
 
 /// The questions, in the order they are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Question {
+pub(in crate::codec) enum Question {
     /// `~#`: model and ROM version.
     Identity,
     /// `~C`: largest x and y.
@@ -13,7 +13,7 @@ pub(super) enum Question {
 
 impl Question {
     /// As it is sent; the first takes no return.
-    pub(super) fn bytes(self) -> &'static [u8] {
+    pub(in crate::codec) fn bytes(self) -> &'static [u8] {
         match self {
             Self::Identity => b"~#",
             Self::Size => b"~C\r",
@@ -32,18 +32,18 @@ impl Question {
 
 /// Model and version, as in `~#UD-1212-R00,V1.4-0`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Identity {
+pub(in crate::codec) struct Identity {
     /// All of it, without the `~#`.
-    pub(super) text: String,
+    pub(in crate::codec) text: String,
     /// Up to the version.
-    pub(super) model: String,
+    pub(in crate::codec) model: String,
     /// Major and minor; `None` where none can be read.
-    pub(super) version: Option<(u32, u32)>,
+    pub(in crate::codec) version: Option<(u32, u32)>,
 }
 
 /// An answer understood.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Answer {
+pub(in crate::codec) enum Answer {
     Identity(Identity),
     /// Largest x and y.
     Size([u16; 2]),
@@ -52,7 +52,7 @@ pub(super) enum Answer {
 }
 
 /// Reads the answer to `question`; `None` if it is not one. Zeroes are no sizes.
-pub(super) fn read(question: Question, line: &str) -> Option<Answer> {
+pub(in crate::codec) fn read(question: Question, line: &str) -> Option<Answer> {
     let rest = line.trim().strip_prefix(question.prefix())?;
     let pair = |fields: &[&str]| {
         let [x, y] = fields else { return None };
