@@ -195,7 +195,7 @@ fn the_patch_panel_shows_the_rigs_own_network_and_its_edits() {
     turn(&mut world, 1, 0.1, 0.2);
     world.run_for(0.3);
     let mut studio = Studio::new();
-    studio.choices().patch = true;
+    studio.choices().board = ui::panels::Board::Patch;
     let size = (1440, 900);
     let picture =
         ui::still::draw(&mut studio, world.seen(), size, 1.0).expect("the adapter that started also draws");

@@ -8,9 +8,10 @@ use std::sync::Arc;
 use egui::{Rect, Ui, UiBuilder, pos2};
 use rig::{Command, PuppetCommand, Snapshot, TransportCommand};
 
+use crate::panels::controls::Controls;
 use crate::panels::layout::Areas;
 use crate::panels::patch::Patch;
-use crate::panels::{Choices, Commands, Panel, canvas, help, keyboard, style};
+use crate::panels::{Board, Choices, Commands, Panel, canvas, help, keyboard, style};
 use crate::panels::{desk, devices, header, keys, puppet, transport, view};
 use crate::patch::look::Look;
 use crate::render::theme;
@@ -59,11 +60,12 @@ pub struct Studio {
     choices: Choices,
     queue: Vec<Command>,
     patch: Patch,
+    controls: Controls,
     /// Whether the rig was asked to show the network.
     looking: bool,
 }
 
-/// Panels whose place the patch panel takes.
+/// Panels whose place another board takes.
 const COVERED: [&str; 3] = ["front", "side", "transport"];
 
 /// Which of the layout's rectangles a panel takes.
@@ -93,6 +95,7 @@ impl Studio {
             choices: Choices::default(),
             queue: Vec::new(),
             patch: Patch::default(),
+            controls: Controls::default(),
             looking: false,
         }
     }
@@ -111,9 +114,10 @@ impl Studio {
         ui.set_clip_rect(window);
         let areas = Areas::of(window);
         ui.painter().rect_filled(window, 0.0, style::ink(theme::PANEL));
-        let patching = commands.choices.patch;
+        let board = commands.choices.board;
+        let patching = board == Board::Patch;
         for (place, panel) in &mut self.panels {
-            if patching && COVERED.contains(&panel.title()) {
+            if board != Board::Figure && COVERED.contains(&panel.title()) {
                 continue;
             }
             let area = place(&areas);
@@ -129,11 +133,11 @@ impl Studio {
         }
         if patching {
             let look = Look::of(seen);
-            let builder = UiBuilder::new().max_rect(areas.patch()).id_salt("patch");
+            let builder = UiBuilder::new().max_rect(areas.board()).id_salt("patch");
             let asked = ui.scope_builder(builder, |ui| {
-                ui.set_clip_rect(areas.patch().intersect(window));
+                ui.set_clip_rect(areas.board().intersect(window));
                 let asked = self.patch.ui(ui, look.as_ref());
-                view::remark(ui, self.patch.table_area(areas.patch()), seen);
+                view::remark(ui, self.patch.table_area(areas.board()), seen);
                 asked
             });
             for edit in asked.inner.edits {
@@ -143,7 +147,14 @@ impl Studio {
                 commands.push(Command::Transport(TransportCommand::Toggle));
             }
         }
-        separators(ui, &areas, patching);
+        if board == Board::Controls {
+            let builder = UiBuilder::new().max_rect(areas.board()).id_salt("controls");
+            ui.scope_builder(builder, |ui| {
+                ui.set_clip_rect(areas.board().intersect(window));
+                self.controls.ui(ui, seen, &mut commands);
+            });
+        }
+        separators(ui, &areas, board != Board::Figure);
         if self.choices.help {
             help::show(ui, areas.front.union(areas.side), patching);
         }
@@ -157,14 +168,14 @@ impl Studio {
 }
 
 /// Hairlines between the panels.
-fn separators(ui: &Ui, areas: &Areas, patching: bool) {
+fn separators(ui: &Ui, areas: &Areas, covered: bool) {
     let painter = ui.painter();
     let edge = style::hair(theme::EDGE);
     let column = areas.header.left() + 0.5;
     painter.vline(column, areas.header.top()..=areas.devices.bottom(), edge);
     for top in [areas.transport.top(), areas.desk.top()]
         .into_iter()
-        .skip(usize::from(patching))
+        .skip(usize::from(covered))
     {
         painter.hline(areas.transport.left()..=column, top + 0.5, edge);
     }

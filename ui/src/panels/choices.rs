@@ -13,6 +13,27 @@ pub struct Choices {
     pub coefficient: Option<usize>,
     /// Whether the page of keyboard shortcuts is shown.
     pub help: bool,
-    /// Whether the patch panel is shown instead of the figure.
-    pub patch: bool,
+    /// What is shown where the figure and its time are.
+    pub board: Board,
+    /// The device whose controls are shown, by its name.
+    pub device: Option<String>,
+}
+
+/// What is shown in the largest part of the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Board {
+    /// The figure and its time.
+    #[default]
+    Figure,
+    /// The function network.
+    Patch,
+    /// Input devices with all their controls.
+    Controls,
+}
+
+impl Board {
+    /// Shows this, or the figure again if it is shown.
+    pub fn toggle(&mut self, board: Board) {
+        *self = if *self == board { Board::Figure } else { board };
+    }
 }

@@ -5,7 +5,7 @@ use rig::{Command, DeviceHealth, DeviceView, Snapshot, Touch};
 
 use super::button::Button;
 use super::style::ink;
-use super::{Commands, Panel, layout, style};
+use super::{Board, Commands, Panel, button, layout, style};
 use crate::render::theme;
 
 /// Input devices.
@@ -96,13 +96,25 @@ fn row(ui: &mut Ui, rect: Rect, device: &DeviceView, commands: &mut Commands<'_>
     style::line(ui.painter(), name_at, Align2::LEFT_CENTER, text, colour, width);
     let left = Rect::from_min_max(rect.min, pos2(right, rect.max.y));
     let id = ui.scope_id().with(("device", &device.name));
-    ui.interact(left, id, egui::Sense::hover()).on_hover_ui(|ui| {
+    let spoken = format!("controls of {}", device.name);
+    let named = (egui::accesskit::Role::Button, spoken.as_str());
+    let response = button::spot(ui, left, id, egui::Sense::click(), named);
+    button::focus_ring(ui, &response);
+    if response.clicked() {
+        let shown = commands.choices.device.as_ref() == Some(&device.name);
+        commands.choices.device = Some(device.name.clone());
+        if commands.choices.board != Board::Controls || shown {
+            commands.choices.board.toggle(Board::Controls);
+        }
+    }
+    response.on_hover_ui(|ui| {
         ui.set_max_width(320.0);
         ui.label(format!("{} at {}", device.profile, device.address));
         ui.label(format!(
             "{} events, {} reports rejected",
             device.events, device.rejected
         ));
+        ui.label("A click shows its controls, or the figure again.");
     });
 }
 

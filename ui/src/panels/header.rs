@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use rig::{Command, Snapshot};
 
 use super::button::{Button, Icon};
-use super::{Commands, Panel, layout, style};
+use super::{Board, Commands, Panel, layout, style};
 use crate::render::theme;
 
 /// Name, the patch panel, undo, redo, save, and the page of keys.
@@ -50,9 +50,9 @@ impl Panel for Header {
             commands.push(Command::Undo);
         }
         let patch_tip = "The function network as boxes and wires, or the figure again.";
-        let patch = Button::new("Patch", patch_tip, "Ctrl-P").switch(commands.choices.patch);
+        let patch = Button::new("Patch", patch_tip, "Ctrl-P").switch(commands.choices.board == Board::Patch);
         if patch.show(ui, cells[4]).clicked() {
-            commands.choices.patch = !commands.choices.patch;
+            commands.choices.board.toggle(Board::Patch);
         }
         let name = if seen.show.is_empty() {
             "untitled"

@@ -9,7 +9,7 @@ use rig::{
 use super::shortcuts::{Act, Place, SHORTCUTS};
 use super::transport::between_neighbours;
 use super::transport_buttons::stepped_speed;
-use super::{Commands, keys, puppet_state};
+use super::{Board, Commands, keys, puppet_state};
 
 const NONE: Modifiers = Modifiers::NONE;
 
@@ -31,7 +31,7 @@ pub fn act(ctx: &Context, seen: &Snapshot, commands: &mut Commands<'_>) {
         return;
     }
     choose_dial(ctx, commands);
-    let elsewhere = if commands.choices.patch {
+    let elsewhere = if commands.choices.board == Board::Patch {
         Place::Stage
     } else {
         Place::Patch
@@ -120,7 +120,8 @@ pub fn perform(act: Act, seen: &Snapshot, commands: &mut Commands<'_>) {
         Act::Ticks => return flip(&mut commands.choices.look.ticks),
         Act::Floor => return flip(&mut commands.choices.look.floor),
         Act::Help => return flip(&mut commands.choices.help),
-        Act::Patch => return flip(&mut commands.choices.patch),
+        Act::Patch => return commands.choices.board.toggle(Board::Patch),
+        Act::Controls => return commands.choices.board.toggle(Board::Controls),
         Act::Coefficient(by) => return choose_coefficient(by, seen, commands),
         Act::Toggle | Act::Frames(_) | Act::Ends(_) | Act::Key(_) | Act::Loop | Act::Speed(_) => {
             Some(Command::Transport(transport(act, seen)))

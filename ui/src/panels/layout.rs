@@ -67,8 +67,8 @@ impl Areas {
         }
     }
 
-    /// The rectangle of the patch panel, which takes the place of the figure and its time.
-    pub fn patch(&self) -> Rect {
+    /// The rectangle of a board that takes the place of the figure and its time: the network, the controls.
+    pub fn board(&self) -> Rect {
         self.front.union(self.side).union(self.transport)
     }
 

@@ -6,6 +6,7 @@
 pub mod button;
 pub mod canvas;
 pub mod choices;
+pub mod controls;
 pub mod desk;
 pub mod devices;
 pub mod dial;
@@ -29,7 +30,7 @@ pub mod transport_buttons;
 pub mod view;
 pub mod vitals;
 
-pub use choices::Choices;
+pub use choices::{Board, Choices};
 
 /// Where panels put what a hand wants done; and what the window itself remembers.
 pub struct Commands<'a> {

@@ -96,6 +96,8 @@ pub enum Act {
     Help,
     /// The patch panel instead of the figure, or back.
     Patch,
+    /// The controls of input devices instead of the figure, or back.
+    Controls,
     /// Patch: looks for something to add.
     Add,
     /// Patch: shows what is selected, or everything.
@@ -240,6 +242,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row((CTRL, Key::Z), Act::Undo, "show", "Ctrl-Z", "undo"),
     everywhere(row((CTRL, Key::S), Act::Save, "show", "Ctrl-S", "save")),
     everywhere(row((CTRL, Key::P), Act::Patch, "show", "Ctrl-P", "the patch panel, the figure")),
+    everywhere(row((CTRL, Key::K), Act::Controls, "show", "Ctrl-K", "the controls, the figure")),
     row((SHIFT, Key::Comma), Act::Twist(-1.0), "pose", "Shift-, Shift-.", "twist the link"),
     row((SHIFT, Key::Period), Act::Twist(1.0), "pose", "", ""),
     row((NONE, Key::Comma), Act::Link(-1), "pose", ", .", "previous, next link"),

@@ -27,13 +27,13 @@ pub(crate) struct Room {
 impl Room {
     pub(crate) fn new(link: Link, size: [f32; 2], card: bool) -> Room {
         let mut harness = harness(walker::playing(), size, card);
-        harness.state_mut().studio.choices().patch = true;
+        harness.state_mut().studio.choices().board = ui::panels::Board::Patch;
         let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
         let mut room = Room {
             harness,
             link,
             said: Vec::new(),
-            area: Areas::of(window).patch(),
+            area: Areas::of(window).board(),
         };
         room.step();
         room.step();
