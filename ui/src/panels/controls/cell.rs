@@ -1,5 +1,7 @@
 //! One control: its picture, its value, what it drives, its label.
 
+use std::fmt::Write as _;
+
 use egui::accesskit::Role;
 use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
 use rig::{Command, ControlView, DeviceView, LearnCommand};
@@ -81,12 +83,12 @@ fn touched(
     let clicked = response.clicked();
     let mut tip = format!("{}<{}>, in {}.", device.instance, control.number, control.unit);
     if !control.mode.is_empty() {
-        tip.push_str(&format!(" Mode: {}.", control.mode));
+        let _ = write!(tip, " Mode: {}.", control.mode);
     }
     if drives.is_empty() {
         tip.push_str(" It drives nothing yet: click, then touch a parameter.");
     } else {
-        tip.push_str(&format!(" {drives}."));
+        let _ = write!(tip, " {drives}.");
     }
     if !control.picked_up && control.awaits.is_some() {
         tip.push_str(" It takes hold when it comes to the amber mark.");

@@ -1,5 +1,7 @@
 //! The devices, one card each: which, how it is, how steadily it speaks.
 
+use std::fmt::Write as _;
+
 use egui::accesskit::Role;
 use egui::{Align2, Rect, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 use rig::{DeviceHealth, DeviceView};
@@ -121,7 +123,7 @@ fn rhythm(device: &DeviceView) -> String {
     };
     for (count, what) in [(device.dropped, "lost"), (device.rejected, "bad")] {
         if count > 0 {
-            said.push_str(&format!("  {count} {what}"));
+            let _ = write!(said, "  {count} {what}");
         }
     }
     said
