@@ -12,27 +12,36 @@
 //! one servo. [`script`] plays hands from a text.
 pub mod ctl_472;
 pub mod deco_01_v2;
+pub mod deej;
 pub mod dial_box;
+pub mod firmata;
 mod firmware;
 pub mod hands;
 pub mod hs610;
 mod line;
+pub mod mm;
 pub mod powermate;
 pub mod pth_660;
 pub mod script;
 pub mod servo_bus;
 pub mod shuttle_pro;
 pub mod space_mouse;
+mod travel;
 mod uart;
 pub mod usb_device;
 mod usb_kinds;
 pub mod wacom_iv;
+pub mod wacom_v;
 
+pub use deej::Deej;
 pub use dial_box::SgiDialBox;
+pub use firmata::Firmata;
 pub use firmware::Firmware;
+pub use mm::SummagraphicsMm;
 pub use script::Script;
 pub use servo_bus::{Fault, ServoBus};
 pub use uart::Parity;
 pub use usb_device::UsbDevice;
 pub use usb_kinds::{USB_KINDS, UsbKind, usb_kind};
 pub use wacom_iv::WacomIv;
+pub use wacom_v::WacomV;

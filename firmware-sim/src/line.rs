@@ -51,6 +51,20 @@ impl Line {
         self.host.parity = parity;
     }
 
+    /// The device changes its own speed; what it has handed to the line goes at the old one.
+    pub(crate) fn set_device_baud(&mut self, baud: u32) {
+        self.device.baud = baud.max(1);
+    }
+
+    pub(crate) fn device_baud(&self) -> u32 {
+        self.device.baud
+    }
+
+    /// The device sets its speed by what the host sends.
+    pub(crate) fn find_speed(&mut self) {
+        self.device.baud = self.host.baud;
+    }
+
     /// How long a byte of the device's takes.
     pub(crate) fn device_byte_ns(&self) -> u64 {
         let byte_ns = self.device.frame_bits() * SECOND_NS / u64::from(self.device.baud);

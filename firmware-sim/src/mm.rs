@@ -1,0 +1,384 @@
+//! A Summagraphics MM tablet (MM1201, MM961, SummaSketch): one letter a command, five bytes a packet, odd parity.
+//!
+//! After power-up it knows no speed: it finds the host's from spaces, and is deaf for a while after the first byte
+//! behind them. It then streams; drivers put it into prompt mode to be able to talk to it.
+//! Source: `docs/protocols/summagraphics-mm.md` (xf86-input-summa, `src/xf86Summa.c`; the MM1201 manual as quoted on
+//! classic-computer lists).
+
+mod command;
+mod packet;
+
+use crate::firmware::Firmware;
+use crate::hands::{Hands, Schedule, Touch, noise};
+use crate::line::{Line, shortened};
+use crate::script::Script;
+use crate::uart::Parity;
+use command::{Command, Parser};
+use packet::{Manner, Pointer};
+use std::collections::VecDeque;
+
+/// Speed that drivers use.
+pub const BAUD: u32 = 9600;
+/// Spaces from which it finds the speed; drivers send ten.
+const SPACES_TO_WAKE: u32 = 4;
+/// How long it is deaf after waking and after a reset. Ours, within the 400 ms that the driver waits because "200 ms
+/// isn't enough".
+const WAKE_NS: u64 = 300_000_000;
+/// Time between two reports of a tool that lies still, where the increment is 0. Ours.
+const REPEAT_NS: u64 = 10_000_000;
+/// Lines per inch after power-up, the driver's default. Ours.
+const DEFAULT_COUNTS_PER_INCH: u16 = 500;
+
+/// How a model writes its reports.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Form {
+    /// Packets of five or, relative, three bytes.
+    #[default]
+    Binary,
+    /// MM1103: `XXXX,YYYY,F` and a line feed.
+    Mm1103,
+    /// Bit Pad Two: `XXXX,YYYY,F`, return, line feed; F is 9 where there is nothing.
+    BitPadTwo,
+}
+
+/// What tells one model from another on the wire.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Answer to `z?`, ended by a return.
+    pub text: String,
+    /// The active area.
+    pub inches: [f64; 2],
+    /// How it writes.
+    pub form: Form,
+}
+
+impl Default for Model {
+    /// Twelve inches square, with the text that the mailing-list posts quote; its version is ours.
+    fn default() -> Self {
+        Self {
+            text: "MM2 12x12 Tablet by Summagraphics Firmware Version 1.00".to_owned(),
+            inches: [12.0, 12.0],
+            form: Form::Binary,
+        }
+    }
+}
+
+/// What commands change.
+#[derive(Clone, Copy, Debug)]
+struct Settings {
+    streaming: bool,
+    increment: u8,
+    manner: Manner,
+}
+
+/// The tablet, its line, and the hand over it.
+#[derive(Clone, Debug)]
+pub struct SummagraphicsMm {
+    model: Model,
+    drift_ppm: i32,
+    line: Line,
+    reached_ns: u64,
+    deaf_until_ns: u64,
+    /// Spaces heard since power-up; none once it is awake.
+    asleep: Option<u32>,
+    parser: Parser,
+    settings: Settings,
+    pointer: Option<Pointer>,
+    /// Where the tool was that left last, and whether that was told.
+    left: Option<Pointer>,
+    told: [u16; 2],
+    pending: VecDeque<Pointer>,
+    next_report_ns: u64,
+    schedule: Schedule,
+    unknown: u64,
+}
+
+impl SummagraphicsMm {
+    /// A tablet just switched on, which has not yet found the host's speed; its clock is `drift_ppm` millionths fast.
+    pub fn new(model: Model, drift_ppm: i32) -> Self {
+        Self {
+            settings: defaults(&model),
+            model,
+            drift_ppm,
+            line: Line::with_parity(BAUD, Parity::Odd, drift_ppm),
+            reached_ns: 0,
+            deaf_until_ns: 0,
+            asleep: Some(0),
+            parser: Parser::default(),
+            pointer: None,
+            left: None,
+            told: [0; 2],
+            pending: VecDeque::new(),
+            next_report_ns: 0,
+            schedule: Schedule::default(),
+            unknown: 0,
+        }
+    }
+
+    /// Plays `script` as well, its times counted from when the host first chose stream or prompt mode.
+    pub fn play(&mut self, script: &Script) {
+        self.schedule.add(
+            script
+                .actions
+                .iter()
+                .map(|action| (action.at_us, action.touch.clone())),
+        );
+    }
+
+    /// Whether every scripted touch has been made.
+    pub fn script_is_done(&self) -> bool {
+        self.schedule.is_done()
+    }
+
+    /// Whether it has found the host's speed.
+    pub fn is_awake(&self) -> bool {
+        self.asleep.is_none()
+    }
+
+    /// Commands that were not understood.
+    pub fn unknown_commands(&self) -> u64 {
+        self.unknown
+    }
+
+    fn catch_up(&mut self, now_us: u64) -> u64 {
+        let now_ns = (now_us * 1000).max(self.reached_ns);
+        self.advance(now_ns);
+        now_ns
+    }
+
+    /// Lets everything happen, in its order, that happens up to `to_ns`.
+    fn advance(&mut self, to_ns: u64) {
+        loop {
+            let events = [
+                self.line.next_arrival_ns(),
+                self.schedule.next_ns(),
+                self.next_report(),
+            ];
+            let Some(at_ns) = events.into_iter().flatten().min().filter(|&at| at <= to_ns) else {
+                break;
+            };
+            self.reached_ns = self.reached_ns.max(at_ns);
+            if let Some((at, byte)) = self.line.arrival(self.reached_ns) {
+                self.hear(at, byte);
+            } else if self.schedule.next_ns().is_some_and(|due| due <= self.reached_ns) {
+                if let Some(touch) = self.schedule.pop() {
+                    self.touch_now(&touch);
+                }
+            } else if let Some(pointer) = self.pending.pop_front().or(self.pointer) {
+                self.report(&pointer);
+            }
+        }
+        self.reached_ns = self.reached_ns.max(to_ns);
+    }
+
+    /// When the next report is due: a change as soon as the line is free, a still tool after its time.
+    fn next_report(&self) -> Option<u64> {
+        if !self.settings.streaming || self.asleep.is_some() {
+            return None;
+        }
+        let free_ns = self
+            .line
+            .device_free_ns()
+            .max(self.deaf_until_ns)
+            .max(self.reached_ns);
+        if !self.pending.is_empty() {
+            return Some(free_ns);
+        }
+        let repeats = self.settings.increment == 0 && self.pointer.is_some();
+        repeats.then(|| free_ns.max(self.next_report_ns))
+    }
+
+    fn report(&mut self, pointer: &Pointer) {
+        let mut bytes = Vec::with_capacity(16);
+        let manner = self.settings.manner;
+        manner.report(pointer, self.told, &mut bytes);
+        self.told = manner.counts(pointer);
+        self.line.device_sends(self.reached_ns, &bytes);
+        self.next_report_ns = self.reached_ns + shortened(REPEAT_NS, self.drift_ppm);
+    }
+
+    fn hear(&mut self, at_ns: u64, byte: u8) {
+        if let Some(spaces) = self.asleep {
+            self.asleep = match byte {
+                b' ' => Some(spaces + 1),
+                _ if spaces >= SPACES_TO_WAKE => {
+                    self.reset(at_ns);
+                    None
+                }
+                _ => Some(0),
+            };
+            return;
+        }
+        if at_ns < self.deaf_until_ns {
+            return;
+        }
+        if let Some(command) = self.parser.push(byte) {
+            self.obey(at_ns, command);
+        }
+    }
+
+    fn obey(&mut self, at_ns: u64, command: Command) {
+        let settings = &mut self.settings;
+        match command {
+            Command::Reset => self.reset(at_ns),
+            Command::PromptMode => {
+                settings.streaming = false;
+                self.pending.clear();
+                self.schedule.begin(at_ns);
+            }
+            Command::Stream => {
+                settings.streaming = true;
+                self.schedule.begin(at_ns);
+                self.pending.clear();
+                self.pending.extend(self.pointer);
+            }
+            Command::Prompt => {
+                let nothing = self.left.unwrap_or(Pointer::pen(&crate::hands::Pen::default()));
+                let pointer = self.pointer.unwrap_or(nothing.leaving());
+                self.report(&pointer);
+            }
+            Command::Absolute(on) => settings.manner.absolute = on,
+            Command::UpperOrigin => settings.manner.upper_origin = true,
+            Command::Binary => settings.manner.form = Form::Binary,
+            Command::TabletId(id) => settings.manner.tablet_id = id,
+            Command::Increment(counts) => settings.increment = counts,
+            Command::Resolution(counts_per_inch) => settings.manner.counts_per_inch = counts_per_inch,
+            Command::Identify => {
+                let answer = format!("{}\r", self.model.text);
+                self.line.device_sends(at_ns, answer.as_bytes());
+            }
+            Command::Configuration => {
+                let mut bytes = Vec::with_capacity(5);
+                settings.manner.configuration(&mut bytes);
+                self.line.device_sends(at_ns, &bytes);
+            }
+            Command::Nothing => {}
+            Command::Unknown => self.unknown += 1,
+        }
+    }
+
+    fn reset(&mut self, at_ns: u64) {
+        self.deaf_until_ns = at_ns + WAKE_NS;
+        self.settings = defaults(&self.model);
+        self.parser = Parser::default();
+        self.told = [0; 2];
+        self.pending.clear();
+        self.pending.extend(self.pointer);
+    }
+
+    fn touch_now(&mut self, touch: &Touch) -> bool {
+        let next = match touch {
+            Touch::Pen(pen) => Some(Pointer::pen(pen)),
+            Touch::Puck(puck) => Some(Pointer::puck(puck)),
+            Touch::Away | Touch::Lift(_) => None,
+            Touch::PowerCycle => {
+                self.line.device_stops(self.reached_ns);
+                self.reset(self.reached_ns);
+                self.asleep = Some(0);
+                return true;
+            }
+            Touch::Noise(bytes) => {
+                self.line.device_sends(self.reached_ns, &noise(*bytes));
+                return true;
+            }
+            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } => return false,
+        };
+        let before = self.pointer;
+        self.pointer = next;
+        match next {
+            None => {
+                if let Some(left) = before.map(Pointer::leaving) {
+                    self.left = Some(left);
+                    self.queue(left);
+                }
+            }
+            Some(next) => {
+                if before.is_none_or(|before| self.is_worth_telling(&before, &next)) {
+                    self.queue(next);
+                }
+            }
+        }
+        true
+    }
+
+    /// An edge always is; a move where it is as long as the increment, measured from the place told last.
+    fn is_worth_telling(&self, before: &Pointer, next: &Pointer) -> bool {
+        let at = self.settings.manner.counts(next);
+        let far = [0, 1].map(|axis| at[axis].abs_diff(self.told[axis]));
+        !before.has_edges_of(next)
+            || far
+                .iter()
+                .any(|&way| way >= u16::from(self.settings.increment).max(1))
+    }
+
+    /// Adds a report; one that differs from the last waiting only in place takes its turn.
+    fn queue(&mut self, pointer: Pointer) {
+        if !self.settings.streaming || self.asleep.is_some() {
+            return;
+        }
+        match self.pending.back_mut() {
+            Some(last) if last.has_edges_of(&pointer) => *last = pointer,
+            _ => self.pending.push_back(pointer),
+        }
+    }
+}
+
+fn defaults(model: &Model) -> Settings {
+    Settings {
+        streaming: true,
+        increment: 0,
+        manner: Manner {
+            inches: model.inches,
+            counts_per_inch: DEFAULT_COUNTS_PER_INCH,
+            upper_origin: false,
+            absolute: true,
+            tablet_id: false,
+            form: model.form,
+        },
+    }
+}
+
+impl Firmware for SummagraphicsMm {
+    fn receive(&mut self, now_us: u64, bytes: &[u8]) {
+        let now_ns = self.catch_up(now_us);
+        if self.asleep.is_some() {
+            self.line.find_speed();
+        }
+        self.line.host_sends(now_ns, bytes);
+    }
+
+    fn transmit(&mut self, now_us: u64, out: &mut Vec<u8>) {
+        let now_ns = self.catch_up(now_us);
+        self.line.deliver(now_ns, out);
+    }
+
+    fn set_line_baud(&mut self, now_us: u64, baud: u32) {
+        self.catch_up(now_us);
+        self.line.set_host_baud(baud);
+    }
+
+    fn set_line_parity(&mut self, now_us: u64, parity: Parity) {
+        self.catch_up(now_us);
+        self.line.set_host_parity(parity);
+    }
+
+    fn next_byte_us(&self) -> Option<u64> {
+        self.line.next_delivery_ns().map(|ns| ns.div_ceil(1000))
+    }
+}
+
+impl Hands for SummagraphicsMm {
+    fn touch(&mut self, now_us: u64, touch: &Touch) -> bool {
+        let now_ns = self.catch_up(now_us);
+        let touched = self.touch_now(touch);
+        self.advance(now_ns);
+        touched
+    }
+
+    fn reporting_since_us(&self) -> Option<u64> {
+        self.schedule.since_us()
+    }
+}
+
+#[cfg(test)]
+mod tests;
