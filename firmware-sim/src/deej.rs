@@ -8,9 +8,11 @@
 use crate::firmware::Firmware;
 use crate::hands::{Hands, Schedule, Touch, noise};
 use crate::line::{Line, shortened};
-use crate::script::Script;
+use crate::script::{Device, Script};
+use crate::serial_kinds::SerialDevice;
 use crate::travel::Travel;
 use crate::uart::Parity;
+use device_profiles::{ControlClass, InputProfile, Quirk};
 
 /// Speed of the line.
 pub const BAUD: u32 = 9600;
@@ -53,6 +55,17 @@ impl Default for Options {
     }
 }
 
+impl From<&InputProfile> for Options {
+    fn from(profile: &InputProfile) -> Self {
+        Self {
+            pots: profile.count(ControlClass::Axis).min(u16::from(u8::MAX)) as u8,
+            restarts_when_opened: profile.quirks.contains(&Quirk::RestartsOnOpen),
+            inverted: profile.lines.as_ref().is_some_and(|lines| lines.inverted),
+            ..Self::default()
+        }
+    }
+}
+
 /// The box, its line, and the hands on it.
 #[derive(Clone, Debug)]
 pub struct Deej {
@@ -77,21 +90,6 @@ impl Deej {
             schedule: Schedule::default(),
             options,
         }
-    }
-
-    /// Plays `script` as well, its times counted from the first line after the port was opened.
-    pub fn play(&mut self, script: &Script) {
-        self.schedule.add(
-            script
-                .actions
-                .iter()
-                .map(|action| (action.at_us, action.touch.clone())),
-        );
-    }
-
-    /// Whether every scripted touch has been made.
-    pub fn script_is_done(&self) -> bool {
-        self.schedule.is_done()
     }
 
     fn catch_up(&mut self, now_us: u64) -> u64 {
@@ -215,6 +213,28 @@ impl Hands for Deej {
 
     fn reporting_since_us(&self) -> Option<u64> {
         self.schedule.since_us()
+    }
+}
+
+impl SerialDevice for Deej {
+    fn play(&mut self, script: &Script) {
+        self.schedule.play(script);
+    }
+
+    fn script_is_done(&self) -> bool {
+        self.schedule.is_done()
+    }
+
+    fn line(&self) -> (u32, Parity) {
+        (BAUD, Parity::None)
+    }
+
+    fn controls(&self) -> Device {
+        Device::Controls {
+            dials: 0,
+            buttons: 0,
+            axes: self.options.pots,
+        }
     }
 }
 

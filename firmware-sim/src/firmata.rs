@@ -12,9 +12,11 @@ use crate::dial_box::Output;
 use crate::firmware::Firmware;
 use crate::hands::{Hands, Schedule, Touch, noise};
 use crate::line::{Line, shortened};
-use crate::script::Script;
+use crate::script::{Device, Script};
+use crate::serial_kinds::SerialDevice;
 use crate::uart::Parity;
 use board::{Board, CHANNELS, Encoder, PINS, mode};
+use device_profiles::{ControlClass, ControlKind, InputProfile, Quirk};
 use message::{Message, Parser};
 
 /// Speed of the line.
@@ -37,8 +39,12 @@ pub struct Options {
     pub name: String,
     /// Opening the port restarts it, as most boards do.
     pub restarts_when_opened: bool,
-    /// The pins of the buttons, in the order of their numbers.
+    /// The pins of the potentiometers, 14 to 19, in the order of their numbers.
+    pub pots: Vec<u8>,
+    /// The pins of the buttons.
     pub buttons: Vec<u8>,
+    /// The two pins of each encoder.
+    pub encoders: Vec<[u8; 2]>,
     /// Counts in one turn of an encoder, four to each of its clicks.
     pub counts_per_turn: u32,
     /// The board's clock is this many millionths fast.
@@ -50,9 +56,29 @@ impl Default for Options {
         Self {
             name: "ConfigurableFirmata".to_owned(),
             restarts_when_opened: true,
+            pots: vec![14, 15, 16, 17, 18, 19],
             buttons: vec![7, 8, 12, 13],
+            encoders: vec![[2, 3]],
             counts_per_turn: 96,
             drift_ppm: 0,
+        }
+    }
+}
+
+impl From<&InputProfile> for Options {
+    fn from(profile: &InputProfile) -> Self {
+        let pins = |wanted: &dyn Fn(ControlKind) -> bool| -> Vec<u8> {
+            let groups = profile.controls.iter().filter(|group| wanted(group.kind));
+            groups.flat_map(|group| group.pins.iter().copied()).collect()
+        };
+        let encoders = pins(&|kind| kind == ControlKind::Dial);
+        Self {
+            restarts_when_opened: profile.quirks.contains(&Quirk::RestartsOnOpen),
+            pots: pins(&|kind| kind.class() == ControlClass::Axis),
+            buttons: pins(&|kind| kind == ControlKind::Button),
+            encoders: encoders.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect(),
+            counts_per_turn: profile.counts_per_turn().round() as u32,
+            ..Self::default()
         }
     }
 }
@@ -116,26 +142,6 @@ impl Firmata {
             unknown: 0,
             options,
         }
-    }
-
-    /// Plays `script` as well, its times counted from when the host first switched a report on.
-    pub fn play(&mut self, script: &Script) {
-        self.schedule.add(
-            script
-                .actions
-                .iter()
-                .map(|action| (action.at_us, action.touch.clone())),
-        );
-    }
-
-    /// Whether every scripted touch has been made.
-    pub fn script_is_done(&self) -> bool {
-        self.schedule.is_done()
-    }
-
-    /// Takes what the host has made its outputs show, each with its time in microseconds: lamps, bit n for pin n.
-    pub fn drain_outputs(&mut self) -> impl Iterator<Item = (u64, Output)> + '_ {
-        self.outputs.drain(..)
     }
 
     /// Messages that were not understood.
@@ -294,15 +300,15 @@ impl Firmata {
                     self.tell_port(port, true);
                 }
             }
-            Message::PinMode { pin, mode } if self.board.can(pin, mode) => {
+            Message::PinMode { pin, mode } if Board::can(pin, mode) => {
                 self.board.modes[usize::from(pin)] = mode;
                 self.board.written[usize::from(pin)] = 0;
             }
-            Message::SetPin { pin, on } if self.board.can(pin, mode::OUTPUT) => {
+            Message::SetPin { pin, on } if Board::can(pin, mode::OUTPUT) => {
                 self.board.written[usize::from(pin)] = u16::from(on);
             }
             Message::Digital { port, pins } if port < PORTS => self.write_port(port, pins),
-            Message::Analog { channel, value } if self.board.can(channel, mode::PWM) => {
+            Message::Analog { channel, value } if Board::can(channel, mode::PWM) => {
                 self.board.written[usize::from(channel)] = value;
             }
             Message::Sysex { command, data } => self.obey_sysex(command, &data),
@@ -360,7 +366,7 @@ impl Firmata {
                     &[pin, mode, (state & 0x7F) as u8, (state >> 7) as u8 & 0x7F],
                 );
             }
-            (0x6F, &[pin, low, ref more @ ..]) if self.board.can(pin, mode::PWM) => {
+            (0x6F, &[pin, low, ref more @ ..]) if Board::can(pin, mode::PWM) => {
                 let high = more.first().copied().unwrap_or(0);
                 self.board.written[usize::from(pin)] = u16::from(low) | u16::from(high) << 7;
             }
@@ -373,7 +379,7 @@ impl Firmata {
     fn obey_encoder(&mut self, data: &[u8]) {
         let there = |n: u8| usize::from(n) < board::ENCODERS;
         match *data {
-            [0, n, a, b] if there(n) && [a, b].iter().all(|&pin| self.board.can(pin, mode::ENCODER)) => {
+            [0, n, a, b] if there(n) && [a, b].iter().all(|&pin| Board::can(pin, mode::ENCODER)) => {
                 for pin in [a, b] {
                     self.board.modes[usize::from(pin)] = mode::ENCODER;
                 }
@@ -420,8 +426,12 @@ impl Firmata {
 
     fn touch_now(&mut self, touch: &Touch) -> bool {
         match *touch {
-            Touch::Axis { control, to, over_us } if control < CHANNELS => {
-                self.board.pots[usize::from(control)].go(self.reached_ns, to, over_us * 1000);
+            Touch::Axis { control, to, over_us } => {
+                let pin = self.options.pots.get(usize::from(control)).copied();
+                let Some(channel) = pin.and_then(Board::channel) else {
+                    return false;
+                };
+                self.board.pots[usize::from(channel)].go(self.reached_ns, to, over_us * 1000);
             }
             Touch::Button { control, down } => {
                 let Some(&pin) = self.options.buttons.get(usize::from(control)) else {
@@ -431,13 +441,10 @@ impl Firmata {
             }
             // A turn is made at once: what the host sees of it is the difference at the next sampling.
             Touch::Dial { control, by, .. } => {
-                let counts = by.counts(self.options.counts_per_turn);
-                match self.board.encoders.get_mut(usize::from(control)) {
-                    Some(Some(encoder)) => encoder.position = encoder.position.wrapping_add(counts),
-                    // An encoder that nobody has attached turns unheard.
-                    Some(None) => {}
-                    None => return false,
-                }
+                let Some(&pins) = self.options.encoders.get(usize::from(control)) else {
+                    return false;
+                };
+                self.board.turn(pins, by.counts(self.options.counts_per_turn));
             }
             Touch::PowerCycle => self.restart(),
             Touch::Noise(bytes) => self.send(&noise(bytes)),
@@ -492,6 +499,35 @@ impl Hands for Firmata {
 
     fn reporting_since_us(&self) -> Option<u64> {
         self.schedule.since_us()
+    }
+}
+
+impl SerialDevice for Firmata {
+    fn play(&mut self, script: &Script) {
+        self.schedule.play(script);
+    }
+
+    fn script_is_done(&self) -> bool {
+        self.schedule.is_done()
+    }
+
+    fn drain_outputs(&mut self, take: &mut dyn FnMut(u64, Output)) {
+        for (at_us, output) in self.outputs.drain(..) {
+            take(at_us, output);
+        }
+    }
+
+    fn line(&self) -> (u32, Parity) {
+        (BAUD, Parity::None)
+    }
+
+    fn controls(&self) -> Device {
+        let count = |wired: usize| u8::try_from(wired).unwrap_or(u8::MAX);
+        Device::Controls {
+            dials: count(self.options.encoders.len()),
+            buttons: count(self.options.buttons.len()),
+            axes: count(self.options.pots.len()),
+        }
     }
 }
 

@@ -147,6 +147,16 @@ pub(crate) struct Schedule {
 }
 
 impl Schedule {
+    /// Adds what `script` does.
+    pub(crate) fn play(&mut self, script: &crate::script::Script) {
+        self.add(
+            script
+                .actions
+                .iter()
+                .map(|action| (action.at_us, action.touch.clone())),
+        );
+    }
+
     /// Adds `actions` (microseconds after the start of reporting), keeping the whole in order of time.
     pub(crate) fn add(&mut self, actions: impl Iterator<Item = (u64, Touch)>) {
         self.waiting.extend(actions);

@@ -11,9 +11,11 @@ mod packet;
 use crate::firmware::Firmware;
 use crate::hands::{Hands, Schedule, Touch, noise};
 use crate::line::{Line, shortened};
-use crate::script::Script;
+use crate::script::{Device, Script};
+use crate::serial_kinds::SerialDevice;
 use crate::uart::Parity;
 use command::{Command, Parser};
+use device_profiles::InputProfile;
 use packet::{Manner, Pointer};
 use std::collections::VecDeque;
 
@@ -59,6 +61,15 @@ impl Default for Model {
             text: "MM2 12x12 Tablet by Summagraphics Firmware Version 1.00".to_owned(),
             inches: [12.0, 12.0],
             form: Form::Binary,
+        }
+    }
+}
+
+impl From<&InputProfile> for Model {
+    fn from(profile: &InputProfile) -> Self {
+        Self {
+            inches: profile.area().mm().map(|mm| mm / 25.4),
+            ..Self::default()
         }
     }
 }
@@ -113,21 +124,6 @@ impl SummagraphicsMm {
             schedule: Schedule::default(),
             unknown: 0,
         }
-    }
-
-    /// Plays `script` as well, its times counted from when the host first chose stream or prompt mode.
-    pub fn play(&mut self, script: &Script) {
-        self.schedule.add(
-            script
-                .actions
-                .iter()
-                .map(|action| (action.at_us, action.touch.clone())),
-        );
-    }
-
-    /// Whether every scripted touch has been made.
-    pub fn script_is_done(&self) -> bool {
-        self.schedule.is_done()
     }
 
     /// Whether it has found the host's speed.
@@ -281,7 +277,9 @@ impl SummagraphicsMm {
                 self.line.device_sends(self.reached_ns, &noise(*bytes));
                 return true;
             }
-            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } => return false,
+            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } | Touch::Ring { .. } => {
+                return false;
+            }
         };
         let before = self.pointer;
         self.pointer = next;
@@ -377,6 +375,24 @@ impl Hands for SummagraphicsMm {
 
     fn reporting_since_us(&self) -> Option<u64> {
         self.schedule.since_us()
+    }
+}
+
+impl SerialDevice for SummagraphicsMm {
+    fn play(&mut self, script: &Script) {
+        self.schedule.play(script);
+    }
+
+    fn script_is_done(&self) -> bool {
+        self.schedule.is_done()
+    }
+
+    fn line(&self) -> (u32, Parity) {
+        (BAUD, Parity::Odd)
+    }
+
+    fn controls(&self) -> Device {
+        Device::Tablet
     }
 }
 

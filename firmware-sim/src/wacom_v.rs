@@ -11,9 +11,11 @@ mod packet;
 use crate::firmware::Firmware;
 use crate::hands::{Hands, Held, Schedule, Touch, noise};
 use crate::line::{Line, shortened};
-use crate::script::Script;
+use crate::script::{Device, Script};
+use crate::serial_kinds::SerialDevice;
 use crate::uart::Parity;
 use command::{Command, Parser};
+use device_profiles::InputProfile;
 use packet::{Pointer, Tool};
 use std::collections::VecDeque;
 
@@ -91,6 +93,22 @@ impl Default for Model {
     }
 }
 
+impl From<&InputProfile> for Model {
+    fn from(profile: &InputProfile) -> Self {
+        let told = profile.wacom.clone().unwrap_or_default();
+        let area = profile.area();
+        Self {
+            text: told.model,
+            version: told.version,
+            max: area
+                .counts
+                .map(|counts| u16::try_from(counts).unwrap_or(u16::MAX)),
+            counts_per_inch: area.per_inch()[0].round() as u32,
+            ..Self::default()
+        }
+    }
+}
+
 impl Model {
     fn goes_to(&self, baud: u32) -> bool {
         let major = self.version.split('.').next().and_then(|text| text.parse().ok());
@@ -150,21 +168,6 @@ impl WacomV {
             schedule: Schedule::default(),
             unknown: 0,
         }
-    }
-
-    /// Plays `script` as well, its times counted from the first `ST`.
-    pub fn play(&mut self, script: &Script) {
-        self.schedule.add(
-            script
-                .actions
-                .iter()
-                .map(|action| (action.at_us, action.touch.clone())),
-        );
-    }
-
-    /// Whether every scripted touch has been made.
-    pub fn script_is_done(&self) -> bool {
-        self.schedule.is_done()
     }
 
     /// The speed it speaks and hears at now.
@@ -312,7 +315,9 @@ impl WacomV {
                 self.reset(self.reached_ns + RESET_BAUD_NS, BAUD);
             }
             Touch::Noise(bytes) => self.line.device_sends(self.reached_ns, &noise(*bytes)),
-            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } => return false,
+            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } | Touch::Ring { .. } => {
+                return false;
+            }
         }
         true
     }
@@ -416,6 +421,24 @@ impl Hands for WacomV {
 
     fn reporting_since_us(&self) -> Option<u64> {
         self.schedule.since_us()
+    }
+}
+
+impl SerialDevice for WacomV {
+    fn play(&mut self, script: &Script) {
+        self.schedule.play(script);
+    }
+
+    fn script_is_done(&self) -> bool {
+        self.schedule.is_done()
+    }
+
+    fn line(&self) -> (u32, Parity) {
+        (BAUD, Parity::None)
+    }
+
+    fn controls(&self) -> Device {
+        Device::Tablet
     }
 }
 

@@ -74,7 +74,7 @@ impl Board {
     }
 
     /// Modes and resolutions of a pin; none where it belongs to the serial line or is not there.
-    pub(super) fn abilities(&self, pin: u8) -> Vec<(u8, u8)> {
+    pub(super) fn abilities(pin: u8) -> Vec<(u8, u8)> {
         if !(2..PINS).contains(&pin) {
             return Vec::new();
         }
@@ -89,8 +89,8 @@ impl Board {
         able
     }
 
-    pub(super) fn can(&self, pin: u8, wanted: u8) -> bool {
-        self.abilities(pin).iter().any(|&(mode, _)| mode == wanted)
+    pub(super) fn can(pin: u8, wanted: u8) -> bool {
+        Self::abilities(pin).iter().any(|&(mode, _)| mode == wanted)
     }
 
     /// Channel of an analog pin.
@@ -108,12 +108,25 @@ impl Board {
     }
 
     pub(super) fn press(&mut self, pin: u8, down: bool) {
-        let bit = 1 << pin;
+        let bit = 1u32.checked_shl(pin.into()).unwrap_or(0);
         self.grounded = if down {
             self.grounded | bit
         } else {
             self.grounded & !bit
         };
+    }
+
+    /// Turns the encoder wired to `pins`; one that nobody has attached turns unheard, one attached the other way
+    /// round counts backwards.
+    pub(super) fn turn(&mut self, pins: [u8; 2], counts: i32) {
+        for encoder in self.encoders.iter_mut().flatten() {
+            let way = match encoder.pins {
+                [a, b] if [a, b] == pins => counts,
+                [a, b] if [b, a] == pins => -counts,
+                _ => 0,
+            };
+            encoder.position = encoder.position.wrapping_add(way);
+        }
     }
 
     /// The eight pins of a port as inputs see them; pins that are no inputs read 0. Without a pull-up an open input

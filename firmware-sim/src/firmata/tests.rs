@@ -16,6 +16,12 @@ fn ask(board: &mut Firmata, now_us: &mut u64, bytes: &[u8]) -> Vec<u8> {
     heard(board, *now_us)
 }
 
+fn outputs(board: &mut Firmata) -> Vec<Output> {
+    let mut shown = Vec::new();
+    board.drain_outputs(&mut |_, output| shown.push(output));
+    shown
+}
+
 fn axis(control: u8, to: f64) -> Touch {
     Touch::Axis {
         control,
@@ -118,7 +124,7 @@ fn encoders_are_attached_turned_asked_reset_and_let_go() {
     let mut board = Firmata::new(Options::default());
     let mut now = 0;
     let turn = |counts| Touch::Dial {
-        control: 1,
+        control: 0,
         by: crate::hands::Turn::Counts(counts),
         over_us: 0,
     };
@@ -135,6 +141,14 @@ fn encoders_are_attached_turned_asked_reset_and_let_go() {
         ask(&mut board, &mut now, &[0xF0, 0x61, 2, 0xF7]),
         [0xF0, 0x61, 1, 0, 0, 0, 0, 0xF7]
     );
+    // Attached the other way round it counts backwards.
+    ask(&mut board, &mut now, &[0xF0, 0x61, 0, 0, 3, 2, 0xF7]);
+    board.touch(now, &turn(5));
+    assert_eq!(
+        ask(&mut board, &mut now, &[0xF0, 0x61, 1, 0, 0xF7]),
+        [0xF0, 0x61, 0x40, 5, 0, 0, 0, 0xF7]
+    );
+    ask(&mut board, &mut now, &[0xF0, 0x61, 5, 0, 0xF7]);
     board.receive(now, &[0xF0, 0x61, 4, 1, 0xF7]);
     now += 100_000;
     assert_eq!(
@@ -156,7 +170,7 @@ fn outputs_light_and_a_restart_puts_them_out() {
         &mut now,
         &[0xF4, 13, 1, 0xF5, 13, 1, 0xF4, 9, 3, 0xE9, 0x7F, 1, 0x91, 0x10, 0],
     );
-    let shown: Vec<Output> = board.drain_outputs().map(|(_, output)| output).collect();
+    let shown = outputs(&mut board);
     assert_eq!(
         shown,
         [
@@ -166,10 +180,7 @@ fn outputs_light_and_a_restart_puts_them_out() {
         ]
     );
     board.touch(now, &Touch::PowerCycle);
-    assert_eq!(
-        board.drain_outputs().map(|(_, o)| o).last(),
-        Some(Output::Lamps(0))
-    );
+    assert_eq!(outputs(&mut board), [Output::Lamps(0)]);
 }
 
 #[test]

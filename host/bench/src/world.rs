@@ -61,10 +61,10 @@ impl Equipment {
     pub fn stand(&self, clock: Arc<dyn Clock>, profiles: &Profiles) -> Result<Stand, StandError> {
         let mut builder = Stand::builder(clock);
         if let Some(key) = &self.knobs {
-            builder = builder.dial_box(DIAL_BOX, profiles.input(key)?)?;
+            builder = builder.input(DIAL_BOX, profiles.input(key)?)?;
         }
         if let Some(key) = &self.tablet {
-            builder = builder.tablet(TABLET, profiles.input(key)?)?;
+            builder = builder.input(TABLET, profiles.input(key)?)?;
         }
         if let Some(key) = &self.puppet {
             builder = builder.puppet(profiles.puppet(key)?, profiles, &self.plan)?;

@@ -34,6 +34,14 @@ pub enum StandError {
         /// The name.
         name: String,
     },
+    /// No simulated firmware speaks the device's format.
+    #[error("profile \"{profile}\" has format \"{format}\", of which nothing is simulated")]
+    NotSimulated {
+        /// The profile's key.
+        profile: String,
+        /// Its format.
+        format: String,
+    },
     /// A pose names a joint that is not there.
     #[error("the setting names joint \"{joint}\", which {puppet} does not have; it has: {known}")]
     NoSuchJoint {
@@ -97,17 +105,26 @@ impl StandBuilder {
         }
     }
 
-    /// Adds a dial box as `sim:NAME`.
-    pub fn dial_box(self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
-        let dial_box = SgiDialBox::new(Options::from(profile));
-        let device = Simulated::DialBox(Box::new(dial_box), profile.counts_per_turn() as u32);
-        self.seat(name, &profile.name, vec![profile.key.clone()], device)
-    }
-
-    /// Adds a tablet as `sim:NAME`.
-    pub fn tablet(self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
-        let tablet = WacomIv::new(Model::from(profile), 0);
-        let device = Simulated::Tablet(Box::new(tablet), Surface::from(profile));
+    /// Adds the input device that `profile` describes as `sim:NAME`.
+    pub fn input(self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
+        let device = match profile.format.as_str() {
+            "sgi-dial-box" => {
+                let dial_box = SgiDialBox::new(Options::from(profile));
+                Simulated::DialBox(Box::new(dial_box), profile.counts_per_turn() as u32)
+            }
+            "wacom-iv" => {
+                let tablet = WacomIv::new(Model::from(profile), 0);
+                Simulated::Tablet(Box::new(tablet), Surface::from(profile))
+            }
+            format => {
+                let device =
+                    firmware_sim::serial_device(profile).ok_or_else(|| StandError::NotSimulated {
+                        profile: profile.key.clone(),
+                        format: format.to_owned(),
+                    })?;
+                Simulated::Serial(device, profile.surface.is_some().then(|| Surface::from(profile)))
+            }
+        };
         self.seat(name, &profile.name, vec![profile.key.clone()], device)
     }
 

@@ -193,6 +193,7 @@ impl Stand {
     pub fn surface(&self, name: &str) -> Result<Option<Surface>, HandError> {
         Ok(match &self.seat(name)?.device {
             Simulated::Tablet(_, surface) => Some(*surface),
+            Simulated::Serial(_, surface) => *surface,
             _ => None,
         })
     }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use firmware_sim::dial_box::Output;
 use firmware_sim::hands::{Hands, Touch};
 use firmware_sim::servo_bus::StatusSent;
-use firmware_sim::{Firmware, ServoBus, SgiDialBox, WacomIv};
+use firmware_sim::{Firmware, SerialDevice, ServoBus, SgiDialBox, WacomIv};
 
 use super::surface::Surface;
 
@@ -18,6 +18,8 @@ pub(crate) enum Simulated {
     DialBox(Box<SgiDialBox>, u32),
     /// Pen and puck, with the active area.
     Tablet(Box<WacomIv>, Surface),
+    /// Any other input device on a serial line, with the active area of a tablet.
+    Serial(Box<dyn SerialDevice>, Option<Surface>),
     /// Servos on one line.
     Bus(Box<ServoBus>),
 }
@@ -80,6 +82,7 @@ impl Seat {
         match &mut self.device {
             Simulated::DialBox(dial_box, _) => &mut **dial_box,
             Simulated::Tablet(tablet, _) => &mut **tablet,
+            Simulated::Serial(device, _) => &mut **device,
             Simulated::Bus(bus) => &mut **bus,
         }
     }
@@ -93,15 +96,17 @@ impl Seat {
             self.inbox.extend(&said);
         }
         self.scratch = said;
-        if let Simulated::DialBox(dial_box, _) = &mut self.device {
-            for (_, output) in dial_box.drain_outputs() {
-                match output {
-                    Output::Lamps(lamps) => self.shown.lamps = lamps,
-                    Output::Label { control, text } => {
-                        self.shown.labels.insert(control, text.trim_end().to_owned());
-                    }
-                }
+        let shown = &mut self.shown;
+        let mut see = |output: Output| match output {
+            Output::Lamps(lamps) => shown.lamps = lamps,
+            Output::Label { control, text } => {
+                shown.labels.insert(control, text.trim_end().to_owned());
             }
+        };
+        match &mut self.device {
+            Simulated::DialBox(dial_box, _) => dial_box.drain_outputs().for_each(|(_, output)| see(output)),
+            Simulated::Serial(device, _) => device.drain_outputs(&mut |_, output| see(output)),
+            Simulated::Tablet(..) | Simulated::Bus(_) => {}
         }
     }
 
@@ -118,6 +123,7 @@ impl Seat {
         // What arrived before anybody listened is not kept by a port that was closed.
         self.inbox.clear();
         self.firmware().set_line_baud(now_us, baud);
+        self.firmware().port_opened(now_us);
         self.opening += 1;
         Some(self.opening)
     }
@@ -180,6 +186,7 @@ impl Seat {
         match &mut self.device {
             Simulated::DialBox(dial_box, _) => dial_box.touch(now_us, touch),
             Simulated::Tablet(tablet, _) => tablet.touch(now_us, touch),
+            Simulated::Serial(device, _) => device.touch(now_us, touch),
             Simulated::Bus(_) => false,
         }
     }

@@ -29,20 +29,21 @@ A script has one action a line, seconds counted from when the host first switche
   at 0.7 puck 0.2 -0.4 button 1
   at 1 puck away";
 
-/// The SGI box of eight dials and 32 keys
+/// A box of dials, faders and keys on a serial line
 ///
-/// Silent until it is initialised, as the real one.
+/// The SGI box unless `--kind` says otherwise: silent until it is initialised, as the real one. deej and Firmata
+/// boards boot first.
 #[derive(Debug, clap::Args)]
 #[command(after_help = DIAL_BOX_EXAMPLES)]
 pub(crate) struct DialBoxArgs {
-    /// Profile of a dial box; `sgi-dialbox-display` has labels
+    /// Profile of a box; `sgi-dialbox-display` has labels
     #[arg(long, value_name = "NAME", default_value = "sgi-dialbox")]
     kind: String,
     #[command(flatten)]
     common: Common,
 }
 
-/// A Wacom IV serial tablet with pen and puck
+/// A serial tablet with pen and puck: Wacom IV or V, Summagraphics MM
 #[derive(Debug, clap::Args)]
 #[command(after_help = TABLET_EXAMPLES)]
 pub(crate) struct TabletArgs {
@@ -66,31 +67,25 @@ struct Common {
 }
 
 pub(super) fn dial_box(args: &DialBoxArgs, console: &Console) -> Result<Exit, Failure> {
-    let profiles = setup::profiles()?;
-    let profile = profiles
-        .input(&args.kind)
-        .map_err(|error| Failure::refused(error.to_string()))?;
-    refuse_other_formats(&profile.key, &profile.format, "sgi-dial-box")?;
-    play(Served::dial_box(profile), &args.common, console)
+    input(&args.kind, &args.common, console)
 }
 
 pub(super) fn tablet(args: &TabletArgs, console: &Console) -> Result<Exit, Failure> {
-    let profiles = setup::profiles()?;
-    let profile = profiles
-        .input(&args.kind)
-        .map_err(|error| Failure::refused(error.to_string()))?;
-    refuse_other_formats(&profile.key, &profile.format, "wacom-iv")?;
-    play(Served::tablet(profile), &args.common, console)
+    input(&args.kind, &args.common, console)
 }
 
-/// The simulated firmware speaks one format only.
-fn refuse_other_formats(key: &str, speaks: &str, wanted: &str) -> Result<(), Failure> {
-    if speaks == wanted {
-        return Ok(());
-    }
-    Err(Failure::refused(format!(
-        "{key} speaks {speaks}; expected a profile of format {wanted}"
-    )))
+fn input(kind: &str, args: &Common, console: &Console) -> Result<Exit, Failure> {
+    let profiles = setup::profiles()?;
+    let profile = profiles
+        .input(kind)
+        .map_err(|error| Failure::refused(error.to_string()))?;
+    let device = Served::input(profile).ok_or_else(|| {
+        Failure::refused(format!(
+            "{} speaks {}, of which nothing is simulated",
+            profile.key, profile.format
+        ))
+    })?;
+    play(device, args, console)
 }
 
 fn play(mut device: Served, args: &Common, console: &Console) -> Result<Exit, Failure> {
