@@ -349,8 +349,7 @@ impl Firmata {
                 let mut able = Vec::new();
                 for pin in 0..PINS {
                     able.extend(
-                        self.board
-                            .abilities(pin)
+                        Board::abilities(pin)
                             .into_iter()
                             .flat_map(|(mode, bits)| [mode, bits]),
                     );

@@ -244,8 +244,8 @@ proptest! {
         let report = &said[9..18];
         prop_assert!(report[1..].iter().all(|byte| byte & 0x80 == 0));
         let [across, down] = place(report);
-        prop_assert!((f64::from(across) - (x + 1.0) / 2.0 * 20_320.0).abs() <= 0.5);
-        prop_assert!((f64::from(down) - (1.0 - y) / 2.0 * 16_240.0).abs() <= 0.5);
+        prop_assert!((f64::from(across) - f64::midpoint(x, 1.0) * 20_320.0).abs() <= 0.5);
+        prop_assert!((f64::from(down) - f64::midpoint(1.0, -y) * 16_240.0).abs() <= 0.5);
         let pressed = f64::from(report[5] & 7) * 128.0 + f64::from(report[6]);
         prop_assert!((pressed - pressure * 1023.0).abs() <= 0.5);
     }
