@@ -68,6 +68,8 @@ fn heavy_and_impure_libraries_stay_where_they_belong() {
         ("eframe", &["ui"]),
         ("wgpu", &["ui"]),
         ("serialport", &["device", "dialrig-tests"]),
+        ("hidapi", &["device", "dialrig-tests"]),
+        ("rusb", &["device", "dialrig-tests"]),
         ("clap", &["dialrig", "dialrig-tests"]),
         ("dynamixel2", &["dialrig-tests"]),
         ("rustypot", &["dialrig-tests"]),

@@ -7,9 +7,10 @@ use steps::Steps;
 use crate::clock::{Clock, Instant};
 use crate::codec::sgi_dial_box::SgiDialBox;
 use crate::codec::wacom_iv::WacomIv;
-use crate::codec::{Codec, Counters, Feedback, InputEvent, Stamped, Surface};
+use crate::codec::{Codec, Counters, Feedback, Handshake, InputEvent, Stamped, Surface};
 use crate::transport::{Transport, TransportError};
 use device_profiles::InputProfile;
+use std::time::Duration;
 
 /// Bytes taken in one look; a kernel's terminal buffer is as large.
 const READ_BYTES: usize = 4096;
@@ -41,6 +42,9 @@ pub struct Device {
     profile: String,
     transport: Box<dyn Transport>,
     codec: Box<dyn Codec>,
+    /// How long a board that starts anew when its port is opened is left alone.
+    boot_wait: Duration,
+    boot_until: Option<Instant>,
     begun: bool,
     silent_since: Option<Instant>,
     lost: Option<TransportError>,
@@ -63,6 +67,8 @@ impl Device {
             profile: profile.into(),
             transport,
             codec,
+            boot_wait: Duration::ZERO,
+            boot_until: None,
             begun: false,
             silent_since: None,
             lost: None,
@@ -88,7 +94,15 @@ impl Device {
                 });
             }
         };
-        Ok(Self::new(name, &profile.key, transport, codec))
+        let codec = if profile.init.is_empty() {
+            codec
+        } else {
+            Box::new(Handshake::new(profile, codec))
+        };
+        let mut device = Self::new(name, &profile.key, transport, codec);
+        let boot_wait_ms = profile.line.map_or(0, |line| line.boot_wait_ms);
+        device.boot_wait = Duration::from_millis(boot_wait_ms.into());
+        Ok(device)
     }
 
     /// Takes what has arrived, goes on with the conversation, and appends the events. Never waits.
@@ -119,11 +133,16 @@ impl Device {
     ) -> Result<(), TransportError> {
         self.now = now;
         if !self.begun {
+            let until = *self.boot_until.get_or_insert(now.after(self.boot_wait));
+            if now < until {
+                // What a boot loader says is not for us.
+                return self.take_in(now, None);
+            }
             self.begun = true;
             self.codec.start(now, &mut self.steps.queue);
         }
         // What was sent before the line went is taken in first.
-        self.take_in(now, events)?;
+        self.take_in(now, Some(&mut *events))?;
         for _ in 0..ROUNDS_MAX {
             let mut emit = |what| events.push(Stamped { at: now, what });
             self.codec.advance(now, &mut self.steps.queue, &mut emit);
@@ -137,19 +156,25 @@ impl Device {
         Ok(())
     }
 
-    /// Decodes what has arrived; every event bears the time its last byte arrived.
-    fn take_in(&mut self, now: Instant, events: &mut Vec<Stamped<InputEvent>>) -> Result<(), TransportError> {
+    /// Decodes what has arrived; every event bears the time its last byte arrived. Without `events` it is thrown away.
+    fn take_in(
+        &mut self,
+        now: Instant,
+        mut events: Option<&mut Vec<Stamped<InputEvent>>>,
+    ) -> Result<(), TransportError> {
         let mut taken = 0;
         for _ in 0..READS_MAX {
             let count = self.transport.read(&mut self.buffer)?;
             if count == 0 {
                 break;
             }
-            let at = self.transport.arrived().map_or(now, |at| at.min(now));
-            self.codec
-                .decode(self.buffer.get(..count).unwrap_or_default(), &mut |what| {
+            if let Some(events) = &mut events {
+                let at = self.transport.arrived().map_or(now, |at| at.min(now));
+                let bytes = self.buffer.get(..count).unwrap_or_default();
+                self.codec.decode(bytes, &mut |what| {
                     events.push(Stamped { at, what });
                 });
+            }
             taken += count;
             if taken >= POLL_BYTES_MAX {
                 break;
@@ -182,6 +207,7 @@ impl Device {
     pub fn reconnect(&mut self, transport: Box<dyn Transport>) {
         self.transport = transport;
         self.steps.clear();
+        self.boot_until = None;
         self.begun = false;
         self.silent_since = None;
         self.lost = None;
@@ -220,6 +246,11 @@ impl Device {
     /// Reports the device would not take.
     pub fn refused(&self) -> u64 {
         self.steps.refused
+    }
+
+    /// Why the device has not started, in words, where that is known.
+    pub fn trouble(&self) -> Option<&str> {
+        self.codec.trouble()
     }
 
     /// The tablet's active area; `None` for what has none.

@@ -10,6 +10,7 @@
 pub mod clock;
 pub mod codec;
 mod device;
+pub mod discovery;
 pub mod servo;
 pub mod transport;
 

@@ -8,20 +8,24 @@ mod dialogue;
 mod event;
 pub mod firmata;
 pub mod gtco;
+mod handshake;
 mod held;
 mod lines;
 pub mod mm;
 pub mod monome_arc;
 mod outgoing;
+pub mod outline;
 mod overdue;
 mod phased;
 pub mod sgi_dial_box;
 #[cfg(test)]
 mod trial;
+pub mod usb_text;
 pub mod wacom_iv;
 pub mod wacom_v;
 
 pub use event::{Feedback, InputEvent, PenSample, Picture, RingStyle, Stamped, Surface, Tool};
+pub use handshake::Handshake;
 pub use outgoing::{Answer, Outgoing, Step};
 
 use crate::clock::Instant;
@@ -62,6 +66,11 @@ pub trait Codec: Send {
 
     /// The tablet's active area; `None` for what has none.
     fn surface(&self) -> Option<Surface> {
+        None
+    }
+
+    /// Why the device has not started, in words, where that is known.
+    fn trouble(&self) -> Option<&str> {
         None
     }
 

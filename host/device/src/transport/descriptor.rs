@@ -61,6 +61,15 @@ pub(super) fn write_some(fd: BorrowedFd<'_>, bytes: &[u8]) -> io::Result<usize> 
     }
 }
 
+/// What has arrived within `limit`; 0 if nothing has.
+pub(super) fn read_within(fd: BorrowedFd<'_>, buffer: &mut [u8], limit: Duration) -> io::Result<usize> {
+    if poll_for(fd, PollFlags::IN, limit) {
+        read(fd, buffer)
+    } else {
+        Ok(0)
+    }
+}
+
 /// Whether bytes (or the news that the far end is gone) are waiting.
 pub(super) fn ready(fd: BorrowedFd<'_>) -> bool {
     poll_for(fd, PollFlags::IN, Duration::ZERO)

@@ -3,17 +3,24 @@
 pub mod adapter;
 pub mod address;
 mod descriptor;
+mod errands;
 mod error;
+pub mod hid;
+mod intake;
 pub mod memory;
+pub mod merged;
 pub mod ports;
 pub mod pty;
 pub mod serial;
 pub mod stamped;
+pub mod stamped_serial;
 pub mod tcp;
+mod usb;
 mod waiting;
 
 pub use address::{Address, open};
 pub use error::TransportError;
+pub use usb::read_usb_string;
 pub use waiting::{Awaited, LINES_MAX, wait_any};
 
 use crate::clock::{Clock, Instant};

@@ -8,6 +8,7 @@
 use super::error::SERIAL_HINT;
 use super::{Boundary, Transport, TransportError, descriptor};
 use crate::clock::{Clock, Instant};
+use device_profiles::{Line, Parity};
 use rustix::fd::{AsFd, BorrowedFd, OwnedFd};
 use rustix::fs::{FlockOperation, Mode, OFlags};
 use rustix::io::Errno;
@@ -23,6 +24,32 @@ pub struct SerialTransport {
 
 /// Opens `path` at `baud`. What arrived before is thrown away.
 pub fn open(path: &str, baud: u32) -> Result<SerialTransport, TransportError> {
+    open_as(path, baud, |_| {})
+}
+
+/// Opens `path` with the line's manners. A board that starts anew whenever its port is opened is left powered and
+/// running when the port is closed, so that only the first opening after plugging restarts it.
+pub fn open_line(path: &str, line: &Line) -> Result<SerialTransport, TransportError> {
+    open_as(path, line.baud, |modes| {
+        let mut set = |flag, on| modes.set(flag, on);
+        set(ControlModes::PARENB, line.parity != Parity::None);
+        set(ControlModes::PARODD, line.parity == Parity::Odd);
+        set(ControlModes::CSTOPB, line.stop_bits == 2);
+        set(ControlModes::CRTSCTS, line.rts_cts);
+        set(ControlModes::HUPCL, line.boot_wait_ms == 0);
+        modes.remove(ControlModes::CSIZE);
+        modes.insert(match line.data_bits {
+            7 => ControlModes::CS7,
+            _ => ControlModes::CS8,
+        });
+    })
+}
+
+fn open_as(
+    path: &str,
+    baud: u32,
+    manners: impl FnOnce(&mut ControlModes),
+) -> Result<SerialTransport, TransportError> {
     let sort = |e: Errno| TransportError::from_io(path, SERIAL_HINT, e.into());
     // Without NONBLOCK an open would wait for a carrier that a three-wire cable never gives.
     let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;
@@ -36,6 +63,7 @@ pub fn open(path: &str, baud: u32) -> Result<SerialTransport, TransportError> {
     settings
         .control_modes
         .insert(ControlModes::CREAD | ControlModes::CLOCAL);
+    manners(&mut settings.control_modes);
     apply(&fd, settings, baud).map_err(sort)?;
     rustix::termios::tcflush(&fd, QueueSelector::IFlush).map_err(sort)?;
     Ok(SerialTransport {
@@ -79,6 +107,11 @@ impl SerialTransport {
     /// The path it was opened by.
     pub fn address(&self) -> &str {
         &self.address
+    }
+
+    /// Another handle of the same port, to read by.
+    pub(super) fn handle(&self) -> Result<OwnedFd, TransportError> {
+        self.fd.try_clone().map_err(|e| self.sorted(e))
     }
 
     fn sorted(&self, error: io::Error) -> TransportError {
