@@ -14,7 +14,7 @@ use super::{Codec, Counters, Feedback, InputEvent, Outgoing, PenSample, Surface,
 use crate::clock::Instant;
 use std::time::Duration;
 
-pub use packet::Meaning;
+pub use packet::{Code, Meaning};
 
 /// Bytes of every packet.
 const PACKET_BYTES: usize = 6;

@@ -17,6 +17,7 @@ mod outgoing;
 pub mod outline;
 mod overdue;
 mod phased;
+pub mod serial_formats;
 pub mod sgi_dial_box;
 #[cfg(test)]
 mod trial;
