@@ -2,7 +2,7 @@
 //!
 //! After power-up it knows no speed: it finds the host's from spaces, and is deaf for a while after the first byte
 //! behind them. It then streams; drivers put it into prompt mode to be able to talk to it.
-//! Source: `docs/protocols/summagraphics-mm.md` (xf86-input-summa, `src/xf86Summa.c`; the MM1201 manual as quoted on
+//! Source: `docs/protocols/mm.md` (xf86-input-summa, `src/xf86Summa.c`; the MM1201 manual as quoted on
 //! classic-computer lists).
 
 mod command;

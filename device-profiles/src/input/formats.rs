@@ -1,7 +1,7 @@
 //! The wire formats there are.
 
-/// Every format that a profile may name, in alphabetical order. Each has a page `docs/protocols/FORMAT.md` and a
-/// codec on the host's side.
+/// Every format that a profile may name, in alphabetical order. Each has a page of its name in
+/// `docs/protocols/` and a codec on the host's side.
 pub const FORMATS: &[&str] = &[
     "calcomp",
     "deej",

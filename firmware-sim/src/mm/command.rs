@@ -1,6 +1,6 @@
 //! The host's half of the MM language: one character a command, some with a second.
 //!
-//! Source: `docs/protocols/summagraphics-mm.md` (xf86-input-summa, `src/xf86Summa.c`; the MM1201 manual as quoted on
+//! Source: `docs/protocols/mm.md` (xf86-input-summa, `src/xf86Summa.c`; the MM1201 manual as quoted on
 //! classic-computer lists).
 
 /// A complete command.

@@ -1,6 +1,6 @@
 //! What an MM tablet says of a tool: packets of five or three bytes, or a line of text.
 //!
-//! Source: `docs/protocols/summagraphics-mm.md` (xf86-input-summa, `src/xf86Summa.c`).
+//! Source: `docs/protocols/mm.md` (xf86-input-summa, `src/xf86Summa.c`).
 
 use super::Form;
 use crate::hands::{Pen, Puck};
