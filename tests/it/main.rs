@@ -3,6 +3,7 @@
 mod anomalies;
 mod directions;
 mod docs;
+mod exchanges;
 mod golden;
 mod measures;
 mod motion_capture;

@@ -5,9 +5,7 @@ mod steps;
 use steps::Steps;
 
 use crate::clock::{Clock, Instant};
-use crate::codec::sgi_dial_box::SgiDialBox;
-use crate::codec::wacom_iv::WacomIv;
-use crate::codec::{Codec, Counters, Feedback, Handshake, InputEvent, Stamped, Surface};
+use crate::codec::{self, Codec, Counters, Feedback, InputEvent, Stamped, Stand, Surface, UnknownFormat};
 use crate::transport::{Transport, TransportError};
 use device_profiles::InputProfile;
 use std::time::Duration;
@@ -84,21 +82,7 @@ impl Device {
         profile: &InputProfile,
         transport: Box<dyn Transport>,
     ) -> Result<Self, UnknownFormat> {
-        let codec: Box<dyn Codec> = match profile.format.as_str() {
-            "sgi-dial-box" => Box::new(SgiDialBox::new(profile)),
-            "wacom-iv" => Box::new(WacomIv::new(profile)),
-            other => {
-                return Err(UnknownFormat {
-                    profile: profile.key.clone(),
-                    format: other.to_owned(),
-                });
-            }
-        };
-        let codec = if profile.init.is_empty() {
-            codec
-        } else {
-            Box::new(Handshake::new(profile, codec))
-        };
+        let codec = codec::of_profile(profile, Stand::Unasked)?;
         let mut device = Self::new(name, &profile.key, transport, codec);
         let boot_wait_ms = profile.line.map_or(0, |line| line.boot_wait_ms);
         device.boot_wait = Duration::from_millis(boot_wait_ms.into());
@@ -262,18 +246,6 @@ impl Device {
     pub fn identity(&self) -> Option<&str> {
         self.codec.identity()
     }
-}
-
-/// A profile's format that no codec here reads.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "profile \"{profile}\" has format \"{format}\", which is not known here; known are: sgi-dial-box, wacom-iv"
-)]
-pub struct UnknownFormat {
-    /// The profile's key.
-    pub profile: String,
-    /// What it says.
-    pub format: String,
 }
 
 #[cfg(test)]

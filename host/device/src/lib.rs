@@ -11,10 +11,13 @@ pub mod clock;
 pub mod codec;
 mod device;
 pub mod discovery;
+pub mod exchange;
 pub mod servo;
+pub mod tap;
 pub mod transport;
 
 pub use clock::{Clock, Instant, MonotonicClock, VirtualClock};
+pub use codec::UnknownFormat;
 pub use codec::{Codec, Feedback, InputEvent, PenSample, Stamped, Tool};
-pub use device::{Device, Health, UnknownFormat};
+pub use device::{Device, Health};
 pub use transport::{Boundary, Transport, TransportError};

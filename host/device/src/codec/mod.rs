@@ -7,6 +7,7 @@ pub mod dial_reports;
 mod dialogue;
 mod event;
 pub mod firmata;
+mod formats;
 pub mod gtco;
 mod handshake;
 mod held;
@@ -26,6 +27,7 @@ pub mod wacom_iv;
 pub mod wacom_v;
 
 pub use event::{Feedback, InputEvent, PenSample, Picture, RingStyle, Stamped, Surface, Tool};
+pub use formats::{Stand, UnknownFormat, of_profile};
 pub use handshake::Handshake;
 pub use outgoing::{Answer, Outgoing, Step};
 
