@@ -86,8 +86,13 @@ pub trait UsbDevice: Hands + Send {
     /// Somebody begins or ends asking `interface` for reports; nobody asking, none are made.
     fn listen(&mut self, now_us: u64, interface: u8, on: bool);
 
+    /// Takes the next report that has reached the host by `now_us`, with the time it did.
+    fn arrived_report(&mut self, now_us: u64) -> Option<(u64, Report)>;
+
     /// Takes the next report that has reached the host by `now_us`.
-    fn report(&mut self, now_us: u64) -> Option<Report>;
+    fn report(&mut self, now_us: u64) -> Option<Report> {
+        self.arrived_report(now_us).map(|(_, report)| report)
+    }
 
     /// When the next report reaches the host, as far as is known; nothing if none is under way.
     fn next_report_us(&self) -> Option<u64>;

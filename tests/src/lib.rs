@@ -7,6 +7,7 @@
 //! *Start reading* at `it/main.rs`.
 
 pub mod golden;
+pub mod kernel;
 pub mod lunge;
 pub mod measure;
 pub mod simulated;

@@ -321,9 +321,9 @@ impl<D: Inside> UsbDevice for Chassis<D> {
         self.begin_script();
     }
 
-    fn report(&mut self, now_us: u64) -> Option<Report> {
+    fn arrived_report(&mut self, now_us: u64) -> Option<(u64, Report)> {
         self.advance(now_us);
-        self.ready.pop_front().map(|(_, report)| report)
+        self.ready.pop_front()
     }
 
     fn next_report_us(&self) -> Option<u64> {

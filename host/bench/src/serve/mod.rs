@@ -10,16 +10,19 @@ mod line;
 mod orders;
 mod pace;
 mod served;
+mod uhid;
 
 pub use bus::{BusPlan, Habits, ServoSpec, ServoSpecError};
 pub use eeprom::Eeprom;
 pub use line::{Place, ServeLine};
 pub use served::Served;
+pub use uhid::{NODE as UHID_NODE, UsbServed};
 
 // What a served device is told with and tells, for programs that must not know the firmware itself.
 pub use firmware_sim::dial_box::Output;
 pub use firmware_sim::script::ScriptError;
 pub use firmware_sim::servo_bus::{Absent, BadCrc, Gaps, InnerHeader, PlantKind, Precedence, WireTime};
+pub use firmware_sim::usb_device::Shown as UsbShown;
 pub use firmware_sim::{Fault, Script};
 
 use std::io;

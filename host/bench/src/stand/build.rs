@@ -12,6 +12,7 @@ use firmware_sim::{ServoBus, SgiDialBox, WacomIv};
 
 use super::seat::{Seat, Simulated};
 use super::truth::Mount;
+use super::usb::UsbSeat;
 use super::{Stand, Surface};
 
 /// Why a bench cannot be set up.
@@ -93,6 +94,7 @@ impl PuppetPlan {
 pub struct StandBuilder {
     clock: Arc<dyn Clock>,
     seats: BTreeMap<String, Arc<Mutex<Seat>>>,
+    usb: BTreeMap<String, Arc<Mutex<UsbSeat>>>,
     mounts: Vec<Mount>,
 }
 
@@ -101,12 +103,16 @@ impl StandBuilder {
         Self {
             clock,
             seats: BTreeMap::new(),
+            usb: BTreeMap::new(),
             mounts: Vec::new(),
         }
     }
 
     /// Adds the input device that `profile` describes as `sim:NAME`.
     pub fn input(self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
+        if firmware_sim::usb_kind(&profile.key).is_some() {
+            return self.usb(name, profile);
+        }
         let device = match profile.format.as_str() {
             "sgi-dial-box" => {
                 let dial_box = SgiDialBox::new(Options::from(profile));
@@ -126,6 +132,22 @@ impl StandBuilder {
             }
         };
         self.seat(name, &profile.name, vec![profile.key.clone()], device)
+    }
+
+    /// Adds the USB input device that `profile` describes as `sim:NAME`.
+    pub fn usb(mut self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
+        let kind = firmware_sim::usb_kind(&profile.key).ok_or_else(|| StandError::NotSimulated {
+            profile: profile.key.clone(),
+            format: profile.format.clone(),
+        })?;
+        let seat = UsbSeat::new(name, profile, (kind.make)());
+        let before = self.usb.insert(name.to_owned(), Arc::new(Mutex::new(seat)));
+        if before.is_some() || self.seats.contains_key(name) {
+            return Err(StandError::Twice {
+                name: name.to_owned(),
+            });
+        }
+        Ok(self)
     }
 
     /// Adds one bus of servos for each bus of the puppet, as `sim:BUS`.
@@ -213,8 +235,8 @@ impl StandBuilder {
     ) -> Result<Self, StandError> {
         let seat = Seat::new(name, format!("simulated: {what}"), matches, device);
         match self.seats.insert(name.to_owned(), Arc::new(Mutex::new(seat))) {
-            None => Ok(self),
-            Some(_) => Err(StandError::Twice {
+            None if !self.usb.contains_key(name) => Ok(self),
+            _ => Err(StandError::Twice {
                 name: name.to_owned(),
             }),
         }
@@ -225,6 +247,7 @@ impl StandBuilder {
         Stand {
             clock: self.clock,
             seats: Arc::new(self.seats),
+            usb: Arc::new(self.usb),
             mounts: Arc::new(self.mounts),
         }
     }

@@ -11,14 +11,16 @@ mod seat;
 mod surface;
 mod transport;
 mod truth;
+mod usb;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use device::clock::Clock;
 use firmware_sim::Fault;
 use firmware_sim::hands::Touch;
 use firmware_sim::servo_bus::FaultError;
+use firmware_sim::usb_device::{Shown as UsbShown, UsbFault, UsbFaultError};
 
 pub use build::{Horn, PuppetPlan, StandBuilder, StandError};
 pub use ports::SimPorts;
@@ -28,6 +30,8 @@ pub use surface::Surface;
 pub use transport::SimTransport;
 pub use truth::JointTruth;
 use truth::Mount;
+pub use usb::SimReports;
+use usb::UsbSeat;
 
 /// What every simulated device's address begins with.
 pub const SCHEME: &str = "sim:";
@@ -83,6 +87,12 @@ pub enum HandError {
         /// What is missing.
         why: String,
     },
+    /// The text names no fault of USB devices.
+    #[error("fault: {source}")]
+    UsbFault {
+        /// What is wrong with it.
+        source: UsbFaultError,
+    },
     /// The text names no fault.
     #[error("fault \"{text}\": {source}")]
     Fault {
@@ -98,10 +108,11 @@ pub enum HandError {
 pub struct Stand {
     clock: Arc<dyn Clock>,
     seats: Arc<BTreeMap<String, Arc<Mutex<Seat>>>>,
+    usb: Arc<BTreeMap<String, Arc<Mutex<UsbSeat>>>>,
     mounts: Arc<Vec<Mount>>,
 }
 
-pub(crate) fn lock(seat: &Mutex<Seat>) -> MutexGuard<'_, Seat> {
+pub(crate) fn lock<S>(seat: &Mutex<S>) -> MutexGuard<'_, S> {
     // A panic elsewhere leaves a device in some state of its own, which is what devices are in anyway.
     seat.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -114,7 +125,19 @@ impl Stand {
 
     /// Names of all devices, in alphabetical order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.seats.keys().map(String::as_str)
+        let all: BTreeSet<&str> = self
+            .seats
+            .keys()
+            .chain(self.usb.keys())
+            .map(String::as_str)
+            .collect();
+        all.into_iter()
+    }
+
+    /// The USB device of that name, with or without `sim:`.
+    fn usb_seat(&self, name: &str) -> Option<MutexGuard<'_, UsbSeat>> {
+        let bare = name.strip_prefix(SCHEME).unwrap_or(name);
+        self.usb.get(bare).map(|seat| lock(seat))
     }
 
     /// The clock that all devices live on.
@@ -140,7 +163,12 @@ impl Stand {
 
     /// Lays a hand on a dial box or tablet, now.
     pub fn touch(&self, name: &str, touch: &Touch) -> Result<(), HandError> {
-        if self.seat(name)?.touch(self.now_us(), touch) {
+        let now_us = self.now_us();
+        let done = match self.usb_seat(name) {
+            Some(mut usb) => usb.touch(now_us, touch),
+            None => self.seat(name)?.touch(now_us, touch),
+        };
+        if done {
             return Ok(());
         }
         let control = match touch {
@@ -160,19 +188,52 @@ impl Stand {
 
     /// Takes a device's cable out of the host (`false`) or puts it back. The device keeps its power.
     pub fn plug(&self, name: &str, connected: bool) -> Result<(), HandError> {
-        self.seat(name)?.plug(self.now_us(), connected);
+        let now_us = self.now_us();
+        match self.usb_seat(name) {
+            Some(mut usb) => usb.plug(now_us, connected),
+            None => self.seat(name)?.plug(now_us, connected),
+        }
         Ok(())
     }
 
     /// Whether the device's cable is in.
     pub fn is_plugged(&self, name: &str) -> Result<bool, HandError> {
-        Ok(self.seat(name)?.is_connected())
+        let now_us = self.now_us();
+        match self.usb_seat(name) {
+            Some(mut usb) => Ok(usb.is_connected(now_us)),
+            None => Ok(self.seat(name)?.is_connected()),
+        }
     }
 
     /// Takes the cable out when the port has been read or written `calls` more times: a way to fail at every
     /// step of a session in turn.
     pub fn unplug_after_calls(&self, name: &str, calls: u64) -> Result<(), HandError> {
-        self.seat(name)?.fail_after(calls);
+        match self.usb_seat(name) {
+            Some(mut usb) => usb.fail_after(calls),
+            None => self.seat(name)?.fail_after(calls),
+        }
+        Ok(())
+    }
+
+    /// What a USB device was made to show so far, oldest first; nothing for other devices.
+    pub fn shown_by_usb(&self, name: &str) -> Result<Vec<UsbShown>, HandError> {
+        match self.usb_seat(name) {
+            Some(mut usb) => Ok(usb.shown()),
+            None => self.seat(name).map(|_| Vec::new()),
+        }
+    }
+
+    /// Brings a fault onto a USB device, named as in `docs/simulators.md`.
+    pub fn usb_fault(&self, name: &str, text: &str) -> Result<(), HandError> {
+        let fault = UsbFault::parse(text).map_err(|source| HandError::UsbFault { source })?;
+        let now_us = self.now_us();
+        let Some(mut usb) = self.usb_seat(name) else {
+            return Err(HandError::NoSuchControl {
+                name: name.to_owned(),
+                control: "USB plug".to_owned(),
+            });
+        };
+        usb.inject(now_us, fault);
         Ok(())
     }
 

@@ -6,7 +6,7 @@ use device::transport::{Transport, TransportError};
 use firmware_sim::hands::{Puck, Touch as Hand, Turn};
 use rig::{Found, Ports, Touch, TouchError};
 
-use super::{HandError, SCHEME, SimTransport, Stand, lock};
+use super::{HandError, SCHEME, SimReports, SimTransport, Stand, lock};
 
 /// Ports of simulated devices. Addresses are `sim:NAME`.
 #[derive(Clone)]
@@ -32,7 +32,19 @@ impl Ports for SimPorts {
                 allowed: Ok(()),
             })
         });
-        plugged.collect()
+        let now_us = self.stand.now_us();
+        let on_usb = self.stand.usb.values().filter_map(|seat| {
+            let mut seat = lock(seat);
+            seat.is_connected(now_us).then(|| Found {
+                address: format!("{SCHEME}{}", seat.name),
+                description: seat.description.clone(),
+                matches: seat.matches.clone(),
+                allowed: Ok(()),
+            })
+        });
+        let mut found: Vec<Found> = plugged.chain(on_usb).collect();
+        found.sort_by(|a, b| a.address.cmp(&b.address));
+        found
     }
 
     fn open(&mut self, address: &str, baud: u32) -> Result<Box<dyn Transport>, TransportError> {
@@ -40,6 +52,11 @@ impl Ports for SimPorts {
             address: address.to_owned(),
         };
         let name = address.strip_prefix(SCHEME).ok_or_else(not_found)?;
+        if let Some(seat) = self.stand.usb.get(name) {
+            let clock = Arc::clone(&self.stand.clock);
+            let reports = SimReports::open(address, seat, clock).ok_or_else(not_found)?;
+            return Ok(Box::new(reports));
+        }
         let seat = self.stand.seats.get(name).ok_or_else(not_found)?;
         let opening = lock(seat).open(self.stand.now_us(), baud).ok_or_else(not_found)?;
         let clock = Arc::clone(&self.stand.clock);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use bench::serve::{Event, Output, Served};
 use serde_json::json;
 
-use super::{PlaceArgs, Trace, serve};
+use super::{PlaceArgs, Trace, serve, uhid};
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
 use crate::{input, setup};
@@ -17,7 +17,10 @@ Examples:
 
 A script has one action a line, seconds counted from when the host first switched reporting on:
   at 0.5 dial 3 +0.25turns over 1
-  at 2 button 4 down";
+  at 2 button 4 down
+
+On USB, for the whole machine (needs /dev/uhid, so mostly root):
+  dialrig sim dial-box --kind powermate --uhid --script turn.txt";
 
 const TABLET_EXAMPLES: &str = "\
 Examples:
@@ -57,13 +60,28 @@ pub(crate) struct TabletArgs {
 #[derive(Debug, clap::Args)]
 struct Common {
     #[command(flatten)]
-    place: PlaceArgs,
+    place: ControlPlace,
     /// What hands do; `-` reads standard input
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
     /// Writes down every byte
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+}
+
+/// Where other programs find it.
+#[derive(Debug, clap::Args)]
+#[group(required = true, multiple = false)]
+struct ControlPlace {
+    /// A pseudo-terminal, linked to at PATH
+    #[arg(long, value_name = "PATH")]
+    pty: Option<PathBuf>,
+    /// A TCP port; port 0 lets the system choose
+    #[arg(long, value_name = "HOST:PORT")]
+    tcp: Option<String>,
+    /// One of this machine's own input devices, through /dev/uhid: devices on USB
+    #[arg(long)]
+    uhid: bool,
 }
 
 pub(super) fn dial_box(args: &DialBoxArgs, console: &Console) -> Result<Exit, Failure> {
@@ -75,15 +93,22 @@ pub(super) fn tablet(args: &TabletArgs, console: &Console) -> Result<Exit, Failu
 }
 
 fn input(kind: &str, args: &Common, console: &Console) -> Result<Exit, Failure> {
+    if args.place.uhid {
+        return uhid::run(kind, args.script.as_deref(), console);
+    }
     let profiles = setup::profiles()?;
     let profile = profiles
         .input(kind)
         .map_err(|error| Failure::refused(error.to_string()))?;
     let device = Served::input(profile).ok_or_else(|| {
-        Failure::refused(format!(
-            "{} speaks {}, of which nothing is simulated",
-            profile.key, profile.format
-        ))
+        Failure::refused(if uhid::is_kind(kind) {
+            format!("{kind} is on USB and has no serial line; give --uhid")
+        } else {
+            format!(
+                "{} speaks {}, of which nothing is simulated",
+                profile.key, profile.format
+            )
+        })
     })?;
     play(device, args, console)
 }
@@ -101,7 +126,11 @@ fn play(mut device: Served, args: &Common, console: &Console) -> Result<Exit, Fa
         device.play(&script);
     }
     let mut trace = args.trace.as_ref().map(Trace::create).transpose()?;
-    serve(device, &args.place, console, &mut |event| {
+    let place = PlaceArgs {
+        pty: args.place.pty.clone(),
+        tcp: args.place.tcp.clone(),
+    };
+    serve(device, &place, console, &mut |event| {
         if let Some(trace) = &mut trace {
             trace.note(event, console);
         }

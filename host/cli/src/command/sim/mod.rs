@@ -3,6 +3,7 @@
 mod controls;
 mod orders;
 mod servo_bus;
+mod uhid;
 
 use std::io::Write;
 use std::path::PathBuf;

@@ -1,0 +1,277 @@
+//! A simulated USB input device as one of the kernel's own, through `/dev/uhid`: one node for each interface.
+//!
+//! The kernel knows nothing of USB here, so strings cannot be asked for: a device that becomes itself by a string
+//! stays what it is before. Source: Linux, `include/uapi/linux/uhid.h` (one record of 4380 bytes each way).
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, ErrorKind, Read, Write};
+use std::os::unix::fs::OpenOptionsExt;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use device::clock::Clock;
+use firmware_sim::script::ScriptError;
+use firmware_sim::usb_device::{HidInterface, Shown, UsbFacts};
+use firmware_sim::{Script, USB_KINDS, UsbDevice, UsbKind, usb_kind};
+
+/// Where the kernel takes devices.
+pub const NODE: &str = "/dev/uhid";
+const EVENT_BYTES: usize = 4380;
+const DATA_MAX: usize = 4096;
+const DESTROY: u32 = 1;
+const OPEN: u32 = 4;
+const CLOSE: u32 = 5;
+const OUTPUT: u32 = 6;
+const GET_REPORT: u32 = 9;
+const GET_REPORT_REPLY: u32 = 10;
+const CREATE: u32 = 11;
+const INPUT: u32 = 12;
+const SET_REPORT: u32 = 13;
+const SET_REPORT_REPLY: u32 = 14;
+const BUS_USB: u16 = 3;
+const FEATURE_REPORT: u8 = 0;
+/// `EIO`, the answer to what the device refuses.
+const REFUSED: u16 = 5;
+/// How soon a report, a request or a stop is noticed.
+const LOOK: Duration = Duration::from_micros(500);
+
+/// One interface as a node of the kernel's.
+struct Node {
+    file: File,
+    interface: u8,
+    numbered: bool,
+}
+
+/// A simulated USB input device ready to be served.
+pub struct UsbServed {
+    kind: &'static UsbKind,
+    device: Box<dyn UsbDevice>,
+}
+
+impl UsbServed {
+    /// The device of this kind, plugged in; none where no such kind is simulated.
+    pub fn of(kind: &str) -> Option<Self> {
+        let kind = usb_kind(kind)?;
+        Some(Self {
+            kind,
+            device: (kind.make)(),
+        })
+    }
+
+    /// The names of all kinds.
+    pub fn kinds() -> impl Iterator<Item = &'static str> {
+        USB_KINDS.iter().map(|kind| kind.name)
+    }
+
+    /// Plays a script, or says everything that is wrong with it.
+    pub fn play(&mut self, text: &str) -> Result<(), Vec<ScriptError>> {
+        self.device.play(&Script::parse(self.kind.controls, text)?);
+        Ok(())
+    }
+
+    /// Is one of the kernel's devices until `stop` is set. `told` hears what it was made to show and when,
+    /// microseconds since scripts count; `ready` is called once its nodes are there.
+    pub fn run(
+        &mut self,
+        clock: &dyn Clock,
+        stop: &AtomicBool,
+        ready: &mut dyn FnMut(),
+        told: &mut dyn FnMut(u64, &Shown),
+    ) -> io::Result<()> {
+        run(&mut *self.device, clock, stop, ready, told)
+    }
+}
+
+fn run(
+    device: &mut dyn UsbDevice,
+    clock: &dyn Clock,
+    stop: &AtomicBool,
+    ready: &mut dyn FnMut(),
+    told: &mut dyn FnMut(u64, &Shown),
+) -> io::Result<()> {
+    let began = clock.now();
+    let mut arrival = 0;
+    let mut nodes = Vec::new();
+    let mut announced = false;
+    let mut event = vec![0; EVENT_BYTES];
+    while !stop.load(Ordering::Relaxed) {
+        let now_us = clock.now().since(began).as_micros() as u64;
+        let now_arrival = device.arrival(now_us);
+        if now_arrival != arrival {
+            // Closing a node destroys its device.
+            nodes.clear();
+            arrival = now_arrival;
+            if arrival != 0 {
+                nodes = create(Path::new(NODE), device.facts())?;
+                if !std::mem::replace(&mut announced, true) {
+                    ready();
+                }
+            }
+        }
+        for node in &mut nodes {
+            node.hear(device, now_us, &mut event)?;
+        }
+        while let Some(report) = device.report(now_us) {
+            if let Some(node) = nodes.iter_mut().find(|node| node.interface == report.interface) {
+                node.say(&report.bytes)?;
+            }
+        }
+        let since_us = device.reporting_since_us().unwrap_or(now_us);
+        for (at_us, shown) in device.drain_shown() {
+            told(at_us.saturating_sub(since_us), &shown);
+        }
+        clock.sleep_until(clock.now().after(LOOK));
+    }
+    Ok(())
+}
+
+fn put(event: &mut [u8], at: usize, bytes: &[u8]) {
+    event[at..at + bytes.len()].copy_from_slice(bytes);
+}
+
+/// The record that makes an interface a device of the kernel's.
+fn creation(facts: &UsbFacts, number: u8, interface: &HidInterface) -> Vec<u8> {
+    let mut event = vec![0; EVENT_BYTES];
+    let name = format!("{} {}", facts.manufacturer, facts.name);
+    let place = format!("dialrig/{}/{number}", std::process::id());
+    let descriptor = &interface.descriptor[..interface.descriptor.len().min(DATA_MAX)];
+    put(&mut event, 0, &CREATE.to_le_bytes());
+    put(&mut event, 4, &name.as_bytes()[..name.len().min(127)]);
+    put(&mut event, 132, &place.as_bytes()[..place.len().min(63)]);
+    let serial = facts.serial.unwrap_or_default();
+    put(&mut event, 196, &serial.as_bytes()[..serial.len().min(63)]);
+    put(&mut event, 260, &(descriptor.len() as u16).to_le_bytes());
+    put(&mut event, 262, &BUS_USB.to_le_bytes());
+    put(&mut event, 264, &u32::from(facts.vendor).to_le_bytes());
+    put(&mut event, 268, &u32::from(facts.product).to_le_bytes());
+    put(&mut event, 272, &u32::from(facts.release_bcd).to_le_bytes());
+    put(&mut event, 280, descriptor);
+    event
+}
+
+fn create(node: &Path, facts: &UsbFacts) -> io::Result<Vec<Node>> {
+    let mut nodes = Vec::new();
+    for (number, interface) in (0..).zip(&facts.interfaces) {
+        let mut file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed())
+            .open(node)?;
+        file.write_all(&creation(facts, number, interface))?;
+        nodes.push(Node {
+            file,
+            interface: number,
+            numbered: interface.numbered,
+        });
+    }
+    Ok(nodes)
+}
+
+impl Node {
+    /// A report as the kernel puts it: behind a 0 where reports are not numbered.
+    fn wire<'a>(&self, bytes: &'a [u8]) -> &'a [u8] {
+        if self.numbered {
+            bytes
+        } else {
+            bytes.strip_prefix(&[0]).unwrap_or(bytes)
+        }
+    }
+
+    fn say(&mut self, report: &[u8]) -> io::Result<()> {
+        let mut event = Vec::with_capacity(6 + report.len());
+        event.extend(INPUT.to_le_bytes());
+        event.extend((report.len() as u16).to_le_bytes());
+        event.extend_from_slice(report);
+        self.file.write_all(&event)
+    }
+
+    /// Everything the kernel has said.
+    fn hear(&mut self, device: &mut dyn UsbDevice, now_us: u64, event: &mut [u8]) -> io::Result<()> {
+        loop {
+            match self.file.read(event) {
+                Ok(_) => self.obey(device, now_us, event)?,
+                Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(()),
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    fn obey(&mut self, device: &mut dyn UsbDevice, now_us: u64, event: &[u8]) -> io::Result<()> {
+        let half = |at: usize| u16::from_le_bytes([event[at], event[at + 1]]);
+        let kind = u32::from_le_bytes([event[0], event[1], event[2], event[3]]);
+        let (request, id) = (&event[4..8], event[8]);
+        match kind {
+            OPEN => device.listen(now_us, self.interface, true),
+            CLOSE => device.listen(now_us, self.interface, false),
+            OUTPUT => {
+                let length = usize::from(half(4100)).min(DATA_MAX);
+                // The kernel does not wait for an answer, and a device that refuses says nothing.
+                let _ = device.output(now_us, self.interface, self.wire(&event[4..4 + length]));
+            }
+            SET_REPORT => {
+                let length = usize::from(half(10)).min(DATA_MAX);
+                let bytes = self.wire(&event[12..12 + length]);
+                let done = if event[9] == FEATURE_REPORT {
+                    device.set_feature(now_us, self.interface, bytes)
+                } else {
+                    device.output(now_us, self.interface, bytes)
+                };
+                let status = if done.is_ok() { 0 } else { REFUSED };
+                self.reply(SET_REPORT_REPLY, request, status, &[])?;
+            }
+            GET_REPORT => match device.feature(now_us, self.interface, id) {
+                Ok(mut bytes) => {
+                    if !self.numbered {
+                        bytes.insert(0, 0);
+                    }
+                    self.reply(GET_REPORT_REPLY, request, 0, &bytes)?;
+                }
+                Err(_) => self.reply(GET_REPORT_REPLY, request, REFUSED, &[])?,
+            },
+            // Started and stopped: nobody listens yet or any more, which OPEN and CLOSE say as well.
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn reply(&mut self, kind: u32, request: &[u8], status: u16, bytes: &[u8]) -> io::Result<()> {
+        let mut event = vec![0; EVENT_BYTES];
+        put(&mut event, 0, &kind.to_le_bytes());
+        put(&mut event, 4, request);
+        put(&mut event, 8, &status.to_le_bytes());
+        if kind == GET_REPORT_REPLY {
+            put(&mut event, 10, &(bytes.len() as u16).to_le_bytes());
+            put(&mut event, 12, bytes);
+        }
+        self.file.write_all(&event)
+    }
+}
+
+impl Drop for Node {
+    fn drop(&mut self) {
+        // Closing the file would do the same; a device that cannot be destroyed is gone already.
+        let _ = self.file.write_all(&DESTROY.to_le_bytes());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_record_of_creation_has_its_fields_where_the_kernel_reads_them() {
+        let device = firmware_sim::usb_kind("ctl-472").expect("there is one");
+        let device = (device.make)();
+        let facts = device.facts();
+        let event = creation(facts, 0, &facts.interfaces[0]);
+        assert_eq!(event.len(), EVENT_BYTES);
+        assert_eq!(event[..4], [11, 0, 0, 0]);
+        assert_eq!(&event[4..12], b"Wacom Co");
+        let length = facts.interfaces[0].descriptor.len();
+        assert_eq!(event[260..264], [length as u8, 0, 3, 0]);
+        assert_eq!(event[264..272], [0x6A, 0x05, 0, 0, 0x7A, 0x03, 0, 0]);
+        assert_eq!(event[280..280 + length], facts.interfaces[0].descriptor);
+    }
+}

@@ -1,0 +1,234 @@
+//! Serial devices: a dial box on CDC-ACM, a servo bus behind an FTDI adapter.
+
+use std::time::Duration;
+
+use anyhow::{Context, ensure};
+use device::transport::{Transport, open};
+use device_profiles::Profiles;
+use firmware_sim::dial_box::Options;
+use firmware_sim::hands::{Hands, Touch, Turn};
+use firmware_sim::servo_bus::{BusOptions, Unit};
+use firmware_sim::{ServoBus, SgiDialBox};
+
+use super::{Claim, PATIENCE, edges, monitor, same, turned};
+use crate::kernel::cable::{Cable, Watch};
+use crate::kernel::function::{Acm, Ftdi};
+use crate::kernel::host::{self, Running};
+
+pub(super) const CLAIMS: &[Claim] = &[
+    Claim {
+        name: "serial: a dial box on CDC-ACM is listed with its maker's words and heard to the count",
+        show: dial_box,
+    },
+    Claim {
+        name: "serial: a dial box unplugged while it turns is named gone, and heard again when it is back",
+        show: dial_box_unplugged,
+    },
+    Claim {
+        name: "serial: a servo bus behind an FTDI adapter is scanned at a million baud",
+        show: servo_bus,
+    },
+    Claim {
+        name: "serial: the adapter's latency timer is the kernel's to set, and costs what it says",
+        show: latency_timer,
+    },
+];
+
+const BOX: [&str; 3] = ["Dialrig Bench", "SGI dial box on USB", "BOX0001"];
+const ADAPTER: [&str; 3] = ["FTDI", "FT232R USB UART", "BENCH001"];
+
+/// Where the kernel has put a device whose serial number is known.
+fn port(watch: &Watch, serial: &str) -> anyhow::Result<String> {
+    let until_us = watch.now_us() + PATIENCE.as_micros() as u64;
+    loop {
+        let all = host::devices(false)?;
+        let found = all.iter().find(|record| {
+            let words = record["description"].as_str().unwrap_or_default();
+            words.contains(serial) && host::address(record).starts_with("/dev/tty")
+        });
+        if let Some(record) = found {
+            return Ok(host::address(record).to_owned());
+        }
+        ensure!(watch.now_us() < until_us, "no port of {serial} among {all:?}");
+        watch.pause(Duration::from_millis(50));
+    }
+}
+
+fn turn(dial_box: &Cable<Acm<SgiDialBox>>, control: u8, counts: i32, over_us: u64) {
+    dial_box.with(|acm, now_us| {
+        let by = Turn::Counts(counts);
+        acm.firmware()
+            .touch(now_us, &Touch::Dial { control, by, over_us })
+    });
+}
+
+/// Turns dial 7 a count at a time until a monitor hears it, and says how many it has heard then.
+fn heard(watch: &Watch, dial_box: &Cable<Acm<SgiDialBox>>, monitor: &Running) -> anyhow::Result<()> {
+    for _ in 0..100 {
+        turn(dial_box, 7, 1, 0);
+        let seen = monitor.until(Duration::from_millis(100), "a first event", |records| {
+            turned(records, 7) > 0
+        });
+        if seen.is_ok() {
+            return Ok(());
+        }
+        watch.pause(Duration::from_millis(20));
+    }
+    monitor
+        .until(PATIENCE, "a first event", |records| turned(records, 7) > 0)
+        .map(|_| ())
+}
+
+fn dial_box(watch: &Watch) -> anyhow::Result<()> {
+    let cable = Cable::plug_in(Acm::new(SgiDialBox::new(Options::default()), BOX), 1, watch);
+    let port = port(watch, BOX[2])?;
+    let monitor = monitor(&port, "sgi-dialbox")?;
+    heard(watch, &cable, &monitor)?;
+    turn(&cable, 0, 200, 700_000);
+    turn(&cable, 3, -77, 300_000);
+    for down in [true, false] {
+        cable.with(|acm, now_us| acm.firmware().touch(now_us, &Touch::Button { control: 31, down }));
+        watch.pause(Duration::from_millis(30));
+    }
+    let done = |records: &[serde_json::Value]| {
+        turned(records, 0) == 200 && turned(records, 3) == -77 && edges(records).len() == 2
+    };
+    let records = monitor.until(PATIENCE, "200 and -77 counts and a key", done)?;
+    same(&edges(&records), &vec![(31, true), (31, false)], "the key")?;
+    // And nothing after it that nobody did.
+    watch.pause(Duration::from_millis(300));
+    let records = monitor.until(PATIENCE, "nothing", |_| true)?;
+    same(
+        &(turned(&records, 0), turned(&records, 3)),
+        &(200, -77),
+        "the dials",
+    )
+}
+
+fn dial_box_unplugged(watch: &Watch) -> anyhow::Result<()> {
+    let cable = Cable::plug_in(Acm::new(SgiDialBox::new(Options::default()), BOX), 1, watch);
+    for _ in 0..3 {
+        let port = port(watch, BOX[2])?;
+        let mut monitor = monitor(&port, "sgi-dialbox")?;
+        heard(watch, &cable, &monitor)?;
+        turn(&cable, 0, 100_000, 100_000_000);
+        monitor.until(PATIENCE, "turning", |records| turned(records, 0) > 20)?;
+        cable.plug(false);
+        let status = monitor.ended(watch, PATIENCE)?;
+        same(&status.code(), &Some(3), "the exit of a lost device")?;
+        let words = monitor.errors().join("\n");
+        ensure!(
+            words.contains("gone"),
+            "it should say that the device is gone: {words}"
+        );
+        ensure!(!words.contains("panicked"), "{words}");
+        cable.with(|acm, now_us| acm.firmware().touch(now_us, &Touch::PowerCycle));
+        cable.plug(true);
+    }
+    Ok(())
+}
+
+/// Six servos behind an adapter.
+fn bus() -> anyhow::Result<ServoBus> {
+    let profiles = Profiles::builtin();
+    let mut bus = ServoBus::new(BusOptions {
+        baud: 1_000_000,
+        ..BusOptions::default()
+    });
+    let model = profiles.servo("XL430-W250")?;
+    for id in 1..=6 {
+        bus.add(model, Unit::new(id)).context("a servo")?;
+    }
+    Ok(bus)
+}
+
+fn servo_bus(watch: &Watch) -> anyhow::Result<()> {
+    let cable = Cable::plug_in(Ftdi::new(bus()?, ADAPTER), 2, watch);
+    let port = port(watch, ADAPTER[2])?;
+    let said = host::run(
+        &[
+            "servo",
+            "scan",
+            "--port",
+            &port,
+            "--baud",
+            "1000000",
+            "--protocol",
+            "dxl2",
+            "--json",
+        ],
+        false,
+    )?;
+    ensure!(said.status.success(), "{said:?}");
+    let ids: Vec<u64> = said
+        .out
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .filter_map(|record| record["id"].as_u64())
+        .collect();
+    same(&ids, &vec![1, 2, 3, 4, 5, 6], &format!("servos in {}", said.out))?;
+    same(&cable.with(|ftdi, _| ftdi.baud()), &1_000_000, "the line's speed")?;
+    let said = host::run(
+        &[
+            "servo",
+            "read",
+            "--port",
+            &port,
+            "--baud",
+            "1000000",
+            "--json",
+            "1",
+            "Present Position",
+        ],
+        false,
+    )?;
+    ensure!(said.status.success(), "{said:?}");
+    Ok(())
+}
+
+fn latency_timer(watch: &Watch) -> anyhow::Result<()> {
+    let cable = Cable::plug_in(Ftdi::new(bus()?, ADAPTER), 2, watch);
+    let port = port(watch, ADAPTER[2])?;
+    let name = port.trim_start_matches("/dev/");
+    let file = format!("/sys/bus/usb-serial/devices/{name}/latency_timer");
+    let kernel = std::fs::read_to_string(&file)?;
+    same(&kernel.trim().to_owned(), &"16".to_owned(), "the kernel's timer")?;
+    let mut line = open(&port.parse()?, 1_000_000)?;
+    let slow_us = round_trips(watch, &mut *line)?;
+    std::fs::write(&file, "1")?;
+    let set = cable.with(|ftdi, _| ftdi.latency_ms());
+    same(&set, &1, "the chip's timer after the kernel has set it")?;
+    let fast_us = round_trips(watch, &mut *line)?;
+    // 16 ms against 1 ms; software emulation adds to both.
+    ensure!(
+        slow_us > fast_us + 8_000,
+        "a question took {slow_us} us at 16 ms and {fast_us} us at 1 ms"
+    );
+    Ok(())
+}
+
+/// Median time of a ping of servo 1 and its answer.
+fn round_trips(watch: &Watch, line: &mut dyn Transport) -> anyhow::Result<u64> {
+    /// Ping of id 1 and the length of its status (DYNAMIXEL protocol 2.0).
+    const PING: [u8; 10] = [0xFF, 0xFF, 0xFD, 0, 1, 3, 0, 1, 0x19, 0x4E];
+    const STATUS_BYTES: usize = 14;
+    let mut times_us = Vec::new();
+    for _ in 0..9 {
+        let began_us = watch.now_us();
+        line.write(&PING)?;
+        let mut count = 0;
+        while count < STATUS_BYTES {
+            count += line.read(&mut [0; 64])?;
+            watch.pause(Duration::from_micros(300));
+            ensure!(
+                watch.now_us() < began_us + 2_000_000,
+                "{count} bytes of a status came"
+            );
+        }
+        times_us.push(watch.now_us() - began_us);
+        // Each question meets the timer at another moment.
+        watch.pause(Duration::from_millis(7));
+    }
+    times_us.sort_unstable();
+    Ok(times_us[times_us.len() / 2])
+}
