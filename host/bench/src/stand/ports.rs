@@ -29,7 +29,7 @@ impl Ports for SimPorts {
                 address: format!("{SCHEME}{}", seat.name),
                 description: seat.description.clone(),
                 matches: seat.matches.clone(),
-                allowed: Ok(()),
+                ..Found::default()
             })
         });
         let now_us = self.stand.now_us();

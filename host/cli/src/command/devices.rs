@@ -1,9 +1,13 @@
 //! `dialrig devices`: everything found, and what is known about it.
 
+use std::io::Write as _;
+use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use bench::SimPorts;
 use bench::world::Equipment;
+use rig::profile_look::{RULES_FILE, rules};
 use rig::{Found, Ports, SystemPorts};
 use serde::Serialize;
 
@@ -16,20 +20,28 @@ use crate::table::{Side, Table};
 const EXAMPLES: &str = "\
 Examples:
   dialrig devices
-  dialrig devices --watch --json";
+  dialrig devices --watch --json
+  sudo dialrig devices --install-rules      lets whoever sits at the machine open every device that is known";
 
 /// How often the list is made anew while watching.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
 
 /// What can be opened, what is known about it, what is missing
 ///
-/// Lists serial ports, whether they may be opened, and the devices of the embedded bench.
+/// Lists input devices on USB and Bluetooth, serial ports and the devices of the embedded bench: which profile fits or
+/// why none does, who has a device already, and what grants the right to open it.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     /// Goes on, telling what comes and goes, until Ctrl-C
     #[arg(long)]
     watch: bool,
+    /// Writes the udev rules for all devices that are known; only root may
+    #[arg(long, conflicts_with = "watch")]
+    install_rules: bool,
+    /// Writes the rules here instead
+    #[arg(long, value_name = "FILE", requires = "install_rules")]
+    rules_file: Option<std::path::PathBuf>,
 }
 
 #[derive(Serialize)]
@@ -39,18 +51,29 @@ struct Record<'a> {
     address: &'a str,
     description: &'a str,
     profiles: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slot: Option<u16>,
     allowed: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     remedy: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    held_by: Option<&'a str>,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
-    let mut found = list()?;
+    if args.install_rules {
+        let file = args.rules_file.as_deref().unwrap_or(Path::new(RULES_FILE));
+        return install_rules(file, console);
+    }
+    let mut ports = Everything::new()?;
+    let mut found = ports.list();
     if args.watch {
         for port in &found {
             tell(console, Some("there"), port)?;
         }
-        return watch(console, &mut found);
+        return watch(console, &mut ports, &mut found);
     }
     if console.json() {
         found.iter().try_for_each(|port| tell(console, None, port))?;
@@ -73,39 +96,70 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         ]);
     }
     console.table(&table)?;
+    for port in &found {
+        for note in notes(port) {
+            console.remark(format_args!("{}: {note}", port.address));
+        }
+    }
     if found.iter().all(|port| port.address.starts_with("sim:")) {
         console.remark(
-            "no serial port on this machine; pseudo-terminals are not listed, name them by their path",
+            "no input device and no serial port on this machine; pseudo-terminals are not listed, name them by their path",
         );
     }
     Ok(Exit::Done)
 }
 
-/// The machine's ports and the embedded bench's.
-fn list() -> Result<Vec<Found>, Failure> {
-    let profiles = setup::profiles()?;
-    let equipment = Equipment {
-        puppet: Some("marionette".to_owned()),
-        ..Equipment::default()
-    };
-    let stand = equipment
-        .stand(rig::real_time(), &profiles)
-        .map_err(|error| Failure::refused(error.to_string()))?;
-    let mut found = SystemPorts.list();
-    found.extend(SimPorts::new(stand).list());
-    Ok(found)
+/// Why nothing is taken, and who is in the way.
+fn notes(port: &Found) -> impl Iterator<Item = &str> {
+    let held = port.held.as_ref().map(|held| held.remedy.as_str());
+    port.why.as_deref().into_iter().chain(held)
 }
 
-fn watch(console: &Console, found: &mut Vec<Found>) -> Result<Exit, Failure> {
+/// The machine's ports and the embedded bench's.
+struct Everything {
+    system: SystemPorts,
+    bench: SimPorts,
+}
+
+impl Everything {
+    fn new() -> Result<Self, Failure> {
+        let profiles = setup::profiles()?;
+        let equipment = Equipment {
+            puppet: Some("marionette".to_owned()),
+            ..Equipment::default()
+        };
+        let clock = rig::real_time();
+        let stand = equipment
+            .stand(Arc::clone(&clock), &profiles)
+            .map_err(|error| Failure::refused(error.to_string()))?;
+        // Looking must not change which device is which, so nothing is remembered here.
+        Ok(Self {
+            system: SystemPorts::knowing(clock, profiles, None),
+            bench: SimPorts::new(stand),
+        })
+    }
+
+    fn list(&mut self) -> Vec<Found> {
+        let mut found = self.system.list();
+        found.extend(self.bench.list());
+        found
+    }
+}
+
+fn watch(console: &Console, ports: &mut Everything, found: &mut Vec<Found>) -> Result<Exit, Failure> {
     let interrupt = Interrupt::listen();
     console.flush()?;
     while !interrupt.came() {
         interrupt.wait(LOOK_AGAIN);
-        let now = list()?;
+        let now = ports.list();
         for port in now.iter().filter(|port| !found.contains(port)) {
-            tell(console, Some("came"), port)?;
+            let known = found.iter().any(|old| old.address == port.address);
+            tell(console, Some(if known { "changed" } else { "came" }), port)?;
         }
-        for port in found.iter().filter(|port| !now.contains(port)) {
+        for port in found
+            .iter()
+            .filter(|port| now.iter().all(|new| new.address != port.address))
+        {
             tell(console, Some("gone"), port)?;
         }
         console.flush()?;
@@ -122,15 +176,51 @@ fn tell(console: &Console, change: Option<&str>, port: &Found) -> Result<(), Fai
             address: &port.address,
             description: &port.description,
             profiles: &port.matches,
+            why: port.why.as_deref(),
+            slot: port.plug.as_ref().map(|plug| plug.slot),
             allowed: remedy.is_none(),
             remedy,
+            held_by: port.held.as_ref().map(|held| held.driver.as_str()),
         });
     }
-    let note = remedy.map(|remedy| format!("; {remedy}")).unwrap_or_default();
-    console.line(format_args!(
-        "{} {}  {}{note}",
+    let mut line = format!(
+        "{} {}  {}",
         change.unwrap_or_default(),
         port.address,
         port.description
-    ))
+    );
+    if !port.matches.is_empty() {
+        line = format!("{line}: {}", port.matches.join(", "));
+    }
+    for note in remedy.into_iter().chain(notes(port)) {
+        line = format!("{line}; {note}");
+    }
+    console.line(line)
+}
+
+/// Writes the rules, or says where they would go and prints them.
+fn install_rules(file: &Path, console: &Console) -> Result<Exit, Failure> {
+    let text = rules(&*setup::profiles()?);
+    let written = std::fs::File::create(file).and_then(|mut out| {
+        out.write_all(text.as_bytes())?;
+        out.sync_all()
+    });
+    match written {
+        Ok(()) => {
+            console.remark(format_args!(
+                "{} is written; to have it at once: `udevadm control --reload && udevadm trigger`, then plug devices out and in",
+                file.display()
+            ));
+            Ok(Exit::Done)
+        }
+        Err(error) => {
+            console.line(text.trim_end())?;
+            let message = format!("{}: {error}; the rules were printed instead", file.display());
+            Err(Failure::refused(message).with_hint(format!(
+                "only root may write there: `sudo dialrig devices --install-rules`, or put them there by hand: \
+                 `dialrig devices --install-rules 2>/dev/null | sudo tee {}`",
+                file.display()
+            )))
+        }
+    }
 }

@@ -10,6 +10,7 @@ mod figure;
 mod monitor;
 mod net;
 mod play;
+mod profile;
 mod sample;
 mod servo;
 mod sim;
@@ -34,6 +35,7 @@ pub(crate) enum Command {
     Net(net::Args),
     Devices(devices::Args),
     Monitor(monitor::Args),
+    Profile(profile::Args),
     Servo(servo::Args),
     Sim(sim::Args),
     Bench(bench::Args),
@@ -59,6 +61,7 @@ impl Command {
             Self::Net(args) => net::run(args, console),
             Self::Devices(args) => devices::run(args, console),
             Self::Monitor(args) => monitor::run(args, console),
+            Self::Profile(args) => profile::run(args, console),
             Self::Servo(args) => servo::run(args, console),
             Self::Sim(args) => sim::run(args, console),
             Self::Bench(args) => bench::run(args, console),

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
 use crate::command::Command;
+use crate::ports::Found;
 
 /// Version of the journal's lines.
 pub(crate) const VERSION: u32 = 1;
@@ -41,6 +42,13 @@ pub enum Record {
         /// Why not, if it failed.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         failed: Option<Failure>,
+    },
+    /// What is plugged in has changed.
+    Listed {
+        /// Which listing it was, from 0; those that found the same as the one before are not written down.
+        call: u64,
+        /// All that is there.
+        found: Vec<Found>,
     },
     /// A read returned bytes.
     Read {

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use device::clock::{Clock, Instant};
 use device::transport::{Boundary, Transport, TransportError};
+use device_profiles::Line;
 
 use super::record::{Digest, Ending, Failure, Record, VERSION, to_hex};
 use crate::command::{Command, Touch};
@@ -105,22 +106,66 @@ impl Inner {
 pub struct RecordingPorts {
     inner: Box<dyn Ports>,
     recorder: Recorder,
+    lists: u64,
+    listed: Vec<Found>,
 }
 
 impl RecordingPorts {
     /// Wraps `inner`.
     pub fn new(inner: Box<dyn Ports>, recorder: Recorder) -> Self {
-        Self { inner, recorder }
+        Self {
+            inner,
+            recorder,
+            lists: 0,
+            listed: Vec::new(),
+        }
     }
 }
 
 impl Ports for RecordingPorts {
     fn list(&mut self) -> Vec<Found> {
-        self.inner.list()
+        let found = self.inner.list();
+        let call = self.lists;
+        self.lists += 1;
+        if found != self.listed {
+            self.listed.clone_from(&found);
+            self.recorder.lock().line(&Record::Listed {
+                call,
+                found: found.clone(),
+            });
+        }
+        found
     }
 
     fn open(&mut self, address: &str, baud: u32) -> Result<Box<dyn Transport>, TransportError> {
         let opened = self.inner.open(address, baud);
+        self.record(address, opened)
+    }
+
+    fn open_input(
+        &mut self,
+        address: &str,
+        line: Option<&Line>,
+    ) -> Result<Box<dyn Transport>, TransportError> {
+        let opened = self.inner.open_input(address, line);
+        self.record(address, opened)
+    }
+
+    fn pin(&mut self, address: &str, slot: Option<u16>) -> Result<(), String> {
+        self.inner.pin(address, slot)
+    }
+
+    fn touch(&mut self, address: &str, touch: &Touch) -> Result<(), TouchError> {
+        self.inner.touch(address, touch)
+    }
+}
+
+impl RecordingPorts {
+    fn record(
+        &mut self,
+        address: &str,
+        opened: Result<Box<dyn Transport>, TransportError>,
+    ) -> Result<Box<dyn Transport>, TransportError> {
         let mut log = self.recorder.lock();
         let port = log.ports;
         log.ports += 1;
@@ -146,10 +191,6 @@ impl Ports for RecordingPorts {
             writes: 0,
             questions: 0,
         }))
-    }
-
-    fn touch(&mut self, address: &str, touch: &Touch) -> Result<(), TouchError> {
-        self.inner.touch(address, touch)
     }
 }
 

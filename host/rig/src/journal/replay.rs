@@ -38,6 +38,7 @@ pub struct Script {
     /// What came out when it was recorded; missing when the recording was cut short.
     pub ending: Option<Ending>,
     ports: VecDeque<Opening>,
+    lists: VecDeque<(u64, Vec<Found>)>,
 }
 
 /// One step to be taken again.
@@ -69,6 +70,7 @@ impl Script {
         let mut steps = Vec::new();
         let mut ending = None;
         let mut ports: Vec<Opening> = Vec::new();
+        let mut lists = VecDeque::new();
         for (index, line) in text.lines().enumerate() {
             let bad = |found: String| JournalError::Line {
                 line: index + 1,
@@ -104,6 +106,7 @@ impl Script {
                         ..Opening::default()
                     });
                 }
+                Record::Listed { call, found } => lists.push_back((call, found)),
                 Record::Read { .. } | Record::Answer { .. } | Record::Fail { .. } => {
                     happen(&mut ports, record).map_err(bad)?;
                 }
@@ -118,6 +121,7 @@ impl Script {
             steps,
             ending,
             ports: ports.into(),
+            lists,
         })
     }
 
@@ -125,6 +129,9 @@ impl Script {
     pub fn take_ports(&mut self) -> ReplayPorts {
         ReplayPorts {
             openings: std::mem::take(&mut self.ports),
+            lists: std::mem::take(&mut self.lists),
+            calls: 0,
+            listed: Vec::new(),
         }
     }
 }
@@ -161,7 +168,11 @@ fn happen(ports: &mut [Opening], record: Record) -> Result<(), String> {
         Record::Fail {
             port, call, failure, ..
         } => opening(ports, port)?.reads.push_back((call, Err(failure), None)),
-        Record::Start { .. } | Record::Step { .. } | Record::Open { .. } | Record::End(_) => {}
+        Record::Start { .. }
+        | Record::Step { .. }
+        | Record::Open { .. }
+        | Record::Listed { .. }
+        | Record::End(_) => {}
     }
     Ok(())
 }
@@ -176,11 +187,19 @@ fn opening(ports: &mut [Opening], port: u32) -> Result<&mut Opening, String> {
 #[derive(Debug)]
 pub struct ReplayPorts {
     openings: VecDeque<Opening>,
+    lists: VecDeque<(u64, Vec<Found>)>,
+    calls: u64,
+    listed: Vec<Found>,
 }
 
 impl Ports for ReplayPorts {
     fn list(&mut self) -> Vec<Found> {
-        Vec::new()
+        let call = self.calls;
+        self.calls += 1;
+        if self.lists.front().is_some_and(|(due, _)| *due == call) {
+            self.listed = self.lists.pop_front().map(|(_, found)| found).unwrap_or_default();
+        }
+        self.listed.clone()
     }
 
     fn open(&mut self, address: &str, _baud: u32) -> Result<Box<dyn Transport>, TransportError> {
@@ -201,6 +220,11 @@ impl Ports for ReplayPorts {
                 arrived: None,
             })),
         }
+    }
+
+    fn pin(&mut self, _address: &str, _slot: Option<u16>) -> Result<(), String> {
+        // What it changed is in the journal as listings.
+        Ok(())
     }
 
     fn touch(&mut self, _address: &str, _touch: &Touch) -> Result<(), TouchError> {

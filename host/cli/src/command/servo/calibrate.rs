@@ -93,7 +93,7 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let only = args.joint.as_deref();
     console.remark("torque goes off: hold the puppet");
     let mut calibrator = Calibrator::begin(
-        &mut SystemPorts,
+        &mut SystemPorts::default(),
         rig::real_time(),
         &profiles,
         &puppet,

@@ -65,7 +65,12 @@ pub(super) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let lines = wards(&profiles, args.puppet.as_deref(), &args.ports, args.baud)
         .map_err(|error| Failure::refused(error.to_string()))?;
     let adapters = Adapters::new(&args.sysfs, Box::new(UsbRequests));
-    let mut doctor = Doctor::new(Box::new(SystemPorts), rig::real_time(), profiles, adapters);
+    let mut doctor = Doctor::new(
+        Box::<SystemPorts>::default(),
+        rig::real_time(),
+        profiles,
+        adapters,
+    );
     if let Some(name) = &args.puppet {
         doctor = doctor.of_puppet(name).map_err(failed)?;
     }

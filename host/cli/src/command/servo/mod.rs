@@ -125,7 +125,7 @@ impl LineArgs {
         let protocol = self.protocol.map(ServoProtocol::from);
         let clock = rig::real_time();
         ServoLine::open(
-            &mut SystemPorts,
+            &mut SystemPorts::default(),
             &self.port,
             self.baud(),
             protocol,
