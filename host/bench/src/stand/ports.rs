@@ -39,7 +39,7 @@ impl Ports for SimPorts {
                 address: format!("{SCHEME}{}", seat.name),
                 description: seat.description.clone(),
                 matches: seat.matches.clone(),
-                allowed: Ok(()),
+                ..Found::default()
             })
         });
         let mut found: Vec<Found> = plugged.chain(on_usb).collect();
