@@ -1,9 +1,9 @@
 //! Which codec reads which format: the one list of them.
 
-use super::Codec;
 use super::handshake::Handshake;
 use super::sgi_dial_box::SgiDialBox;
 use super::wacom_iv::WacomIv;
+use super::{Codec, serial_formats};
 use device_profiles::InputProfile;
 
 /// How a conversation stands when a codec comes in.
@@ -24,12 +24,10 @@ pub fn of_profile(profile: &InputProfile, stand: Stand) -> Result<Box<dyn Codec>
         "sgi-dial-box" => Box::new(SgiDialBox::new(profile)),
         "wacom-iv" if reports => Box::new(WacomIv::listening(profile)),
         "wacom-iv" => Box::new(WacomIv::new(profile)),
-        other => {
-            return Err(UnknownFormat {
-                profile: profile.key.clone(),
-                format: other.to_owned(),
-            });
-        }
+        other => serial_formats::codec(profile, reports).ok_or_else(|| UnknownFormat {
+            profile: profile.key.clone(),
+            format: other.to_owned(),
+        })?,
     };
     Ok(if reports || profile.init.is_empty() {
         codec
@@ -46,4 +44,48 @@ pub struct UnknownFormat {
     pub profile: String,
     /// What it says.
     pub format: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use device_profiles::{FORMATS, Profiles};
+    use std::collections::BTreeSet;
+
+    /// Formats of the profiles that are not read over a byte stream of their own.
+    const ELSEWHERE: [&str; 3] = ["hid", "midi", "osc"];
+
+    #[test]
+    fn every_profile_of_every_format_has_a_codec() {
+        let profiles = Profiles::builtin();
+        let mut read = BTreeSet::new();
+        for profile in profiles.inputs() {
+            for stand in [Stand::Unasked, Stand::Reporting] {
+                match of_profile(profile, stand) {
+                    Ok(codec) => {
+                        let reports = stand == Stand::Reporting;
+                        assert!(reports || !codec.started(), "{} has not been asked", profile.key);
+                        read.insert(profile.format.as_str());
+                    }
+                    Err(error) => assert!(ELSEWHERE.contains(&profile.format.as_str()), "{error}"),
+                }
+            }
+        }
+        let known: BTreeSet<&str> = FORMATS.iter().copied().collect();
+        let elsewhere = BTreeSet::from(ELSEWHERE);
+        assert_eq!(read.union(&elsewhere).copied().collect::<BTreeSet<_>>(), known);
+    }
+
+    #[test]
+    fn a_format_of_nobody_is_named() {
+        let mut profile = Profiles::builtin().input("deej").expect("it is built in").clone();
+        "morse".clone_into(&mut profile.format);
+        let error = of_profile(&profile, Stand::Unasked)
+            .err()
+            .expect("nobody reads it");
+        assert_eq!(
+            error.to_string(),
+            "profile \"deej\" has format \"morse\", which no codec here reads"
+        );
+    }
 }
