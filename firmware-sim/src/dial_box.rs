@@ -11,6 +11,7 @@ mod dials;
 use crate::firmware::Firmware;
 use crate::hands::{Hands, Schedule, Touch, noise};
 use crate::line::Line;
+use crate::midi_box::MidiShown;
 use crate::script::Script;
 use crate::uart::Parity;
 use command::{Command, Parser};
@@ -72,6 +73,8 @@ pub enum Output {
         /// Eight ASCII characters, padded with spaces.
         text: String,
     },
+    /// What only a box that speaks MIDI has: rings, colours, lamps that blink, modes, layers.
+    Midi(MidiShown),
 }
 
 /// The box, its line, and the hands on it.

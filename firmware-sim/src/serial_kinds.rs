@@ -5,6 +5,7 @@ use crate::dial_box::Output;
 use crate::firmata::Firmata;
 use crate::firmware::Firmware;
 use crate::hands::Hands;
+use crate::midi_box;
 use crate::mm::SummagraphicsMm;
 use crate::script::{Device, Script};
 use crate::uart::Parity;
@@ -37,6 +38,7 @@ pub fn serial_device(profile: &InputProfile) -> Option<Box<dyn SerialDevice>> {
         "mm" => Box::new(SummagraphicsMm::new(profile.into(), 0)),
         "deej" => Box::new(Deej::new(profile.into())),
         "firmata" => Box::new(Firmata::new(profile.into())),
+        "midi" => return midi_box::of_profile(&profile.key),
         _ => return None,
     })
 }

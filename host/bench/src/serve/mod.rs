@@ -20,6 +20,7 @@ pub use uhid::{NODE as UHID_NODE, UsbServed};
 
 // What a served device is told with and tells, for programs that must not know the firmware itself.
 pub use firmware_sim::dial_box::Output;
+pub use firmware_sim::midi_box::{Glow, MidiShown};
 pub use firmware_sim::script::ScriptError;
 pub use firmware_sim::servo_bus::{Absent, BadCrc, Gaps, InnerHeader, PlantKind, Precedence, WireTime};
 pub use firmware_sim::usb_device::Shown as UsbShown;

@@ -7,8 +7,9 @@ use std::collections::{BTreeMap, VecDeque};
 
 use firmware_sim::dial_box::Output;
 use firmware_sim::hands::{Hands, Touch};
+use firmware_sim::midi_box::Glow;
 use firmware_sim::servo_bus::StatusSent;
-use firmware_sim::{Firmware, SerialDevice, ServoBus, SgiDialBox, WacomIv};
+use firmware_sim::{Firmware, MidiShown, SerialDevice, ServoBus, SgiDialBox, WacomIv};
 
 use super::surface::Surface;
 
@@ -31,6 +32,34 @@ pub struct Shown {
     pub lamps: u32,
     /// Texts by control (0–7 dials, 8–19 keys 1–12), without the padding.
     pub labels: BTreeMap<u8, String>,
+    /// Lit lamps around dials by dial, bit 0 the leftmost.
+    pub rings: BTreeMap<u8, u16>,
+    /// Lamps of two colours by their maker's number: red and green, 0 to 3.
+    pub colours: BTreeMap<u8, [u8; 2]>,
+}
+
+impl Shown {
+    /// Blinking counts as lit.
+    fn see(&mut self, output: MidiShown) {
+        match output {
+            MidiShown::Lamp { control, glow } => {
+                let bit = 1_u32.checked_shl(control.into()).unwrap_or(0);
+                self.lamps = match glow {
+                    Glow::Off => self.lamps & !bit,
+                    Glow::On | Glow::Blinking => self.lamps | bit,
+                };
+            }
+            MidiShown::Ring { control, lamps, .. } => {
+                self.rings.insert(control, lamps);
+            }
+            MidiShown::Colour {
+                index, red, green, ..
+            } => {
+                self.colours.insert(index, [red, green]);
+            }
+            MidiShown::Mode(_) | MidiShown::Layer(_) => {}
+        }
+    }
 }
 
 /// What went over a bus since it was last asked: when the host wrote, and when servos measured what they sent.
@@ -102,6 +131,7 @@ impl Seat {
             Output::Label { control, text } => {
                 shown.labels.insert(control, text.trim_end().to_owned());
             }
+            Output::Midi(output) => shown.see(output),
         };
         match &mut self.device {
             Simulated::DialBox(dial_box, _) => dial_box.drain_outputs().for_each(|(_, output)| see(output)),

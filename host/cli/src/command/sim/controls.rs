@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bench::serve::{Event, Output, Served};
+use bench::serve::{Event, Glow, MidiShown, Output, Served};
 use serde_json::json;
 
 use super::{PlaceArgs, Trace, serve, uhid};
@@ -14,6 +14,7 @@ const DIAL_BOX_EXAMPLES: &str = "\
 Examples:
   dialrig sim dial-box --pty /tmp/dials
   dialrig sim dial-box --kind sgi-dialbox-display --pty /tmp/dials --script turn.txt --json
+  dialrig sim dial-box --kind x-touch-mini-mc --pty /tmp/faders
 
 A script has one action a line, seconds counted from when the host first switched reporting on:
   at 0.5 dial 3 +0.25turns over 1
@@ -143,19 +144,77 @@ fn play(mut device: Served, args: &Common, console: &Console) -> Result<Exit, Fa
 /// Says what the device was told to show. A reader that went away does not stop the device.
 fn tell(at_us: u64, output: &Output, console: &Console) {
     let t = at_us as f64 / 1e6;
-    let told = match output {
+    let (record, line) = match output {
         Output::Lamps(mask) => {
-            let on: Vec<u8> = (0..32).filter(|lamp| mask >> lamp & 1 == 1).collect();
-            if console.json() {
-                console.record(&json!({"t": t, "output": "lamps", "on": on}))
-            } else {
-                console.line(format_args!("{t:10.3}  lamps {on:?}"))
-            }
+            let on = lit(*mask);
+            (
+                json!({"t": t, "output": "lamps", "on": on}),
+                format!("lamps {on:?}"),
+            )
         }
-        Output::Label { control, text } if console.json() => {
-            console.record(&json!({"t": t, "output": "label", "control": control, "text": text.trim_end()}))
-        }
-        Output::Label { control, text } => console.line(format_args!("{t:10.3}  label {control} {text}")),
+        Output::Label { control, text } => (
+            json!({"t": t, "output": "label", "control": control, "text": text.trim_end()}),
+            format!("label {control} {text}"),
+        ),
+        Output::Midi(shown) => midi(t, *shown),
+    };
+    let told = if console.json() {
+        console.record(&record)
+    } else {
+        console.line(format_args!("{t:10.3}  {line}"))
     };
     let _ = told.and_then(|()| console.flush());
+}
+
+/// What a MIDI box shows, for programs and for people.
+fn midi(t: f64, shown: MidiShown) -> (serde_json::Value, String) {
+    match shown {
+        MidiShown::Lamp { control, glow } => {
+            let light = match glow {
+                Glow::Off => "off",
+                Glow::On => "on",
+                Glow::Blinking => "blinking",
+            };
+            (
+                json!({"t": t, "output": "lamp", "control": control, "light": light}),
+                format!("lamp {control} {light}"),
+            )
+        }
+        MidiShown::Colour {
+            index,
+            red,
+            green,
+            blinking,
+        } => (
+            json!({"t": t, "output": "lamp", "index": index, "red": red, "green": green, "blinking": blinking}),
+            format!("lamp {index} red {red} green {green}{}", after(blinking)),
+        ),
+        MidiShown::Ring {
+            control,
+            lamps,
+            blinking,
+        } => {
+            let on = lit(lamps.into());
+            (
+                json!({"t": t, "output": "ring", "control": control, "on": on, "blinking": blinking}),
+                format!("ring {control} {on:?}{}", after(blinking)),
+            )
+        }
+        MidiShown::Mode(mode) => (
+            json!({"t": t, "output": "mode", "value": mode}),
+            format!("mode {mode}"),
+        ),
+        MidiShown::Layer(layer) => (
+            json!({"t": t, "output": "layer", "value": layer}),
+            format!("layer {layer}"),
+        ),
+    }
+}
+
+fn after(blinking: bool) -> &'static str {
+    if blinking { " blinking" } else { "" }
+}
+
+fn lit(mask: u32) -> Vec<u8> {
+    (0..32).filter(|lamp| mask >> lamp & 1 == 1).collect()
 }
