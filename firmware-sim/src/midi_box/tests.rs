@@ -347,7 +347,7 @@ fn moves_over_time_come_at_their_times() {
     desk.midi.turn(desk.now_us, 4, 4, 400_000);
     for _ in 0..4 {
         assert_eq!(desk.listen(98_990), []);
-        assert_eq!(desk.listen(1_010), [0xB0, 20, 1]);
+        assert_eq!(desk.listen(1_020), [0xB0, 20, 1]);
     }
     desk.midi.slide(desk.now_us, 0, 1.0, 255_000);
     let heard = desk.listen(300_000);
