@@ -3,15 +3,18 @@
 //! Scaling follows `docs/ps300/functions.md`: a dial sends 1.0 for a full turn, clockwise positive; the tablet
 //! sends −1…1 on its longer side, the shorter one centred with the aspect kept, y up.
 
-use device::codec::{InputEvent, PenSample, Surface, Tool};
-use glam::DVec2;
+use device::codec::{InputEvent, Surface};
 use ps300::machine::Panel;
 use ps300::value::Value;
 
+use crate::controls::tablet::Tablet;
 use crate::snapshot::DeskView;
 
 /// How long a dial is drawn as live after it moved, seconds.
 const LIVE_SECS: f64 = 0.5;
+
+/// Outputs of TABLETIN.
+const TABLETIN_OUTPUTS: u8 = 6;
 
 /// Where a token goes: device instance, output, value.
 pub(crate) type Emit<'a> = dyn FnMut(&'static str, u8, Value) + 'a;
@@ -31,12 +34,6 @@ pub(crate) struct Desk {
     view: DeskView,
     moved_at_secs: [Option<f64>; 8],
     tablet: Tablet,
-}
-
-#[derive(Debug, Default)]
-struct Tablet {
-    in_range: bool,
-    code: i32,
 }
 
 impl Desk {
@@ -69,7 +66,14 @@ impl Desk {
                     emit("BUTTONSIN", 1, Value::Integer(number));
                 }
             }
-            InputEvent::Pen(sample) => self.hear_tablet(sample, source.surface, emit),
+            InputEvent::Pen(sample) => {
+                let Some(surface) = source.surface else { return };
+                self.tablet.hear(sample, surface, &mut |output, value| {
+                    if output <= TABLETIN_OUTPUTS {
+                        emit("TABLETIN", output, value);
+                    }
+                });
+            }
             // Of the rest the original's devices have nothing.
             InputEvent::Started
             | InputEvent::Restarted
@@ -78,31 +82,6 @@ impl Desk {
             | InputEvent::Axis { .. }
             | InputEvent::AxisTouched { .. }
             | InputEvent::Ring { .. } => {}
-        }
-    }
-
-    fn hear_tablet(&mut self, sample: &PenSample, surface: Option<Surface>, emit: &mut Emit<'_>) {
-        let Some(surface) = surface else { return };
-        if sample.in_range != self.tablet.in_range {
-            self.tablet.in_range = sample.in_range;
-            emit("TABLETIN", 5, Value::Boolean(sample.in_range));
-        }
-        let position = Value::Vector2(tablet_position(sample, surface));
-        if sample.in_range {
-            emit("TABLETIN", 1, position.clone());
-        }
-        let code = button_code(sample);
-        if code == self.tablet.code {
-            return;
-        }
-        let pressed = code & !self.tablet.code != 0;
-        if (code == 0) != (self.tablet.code == 0) {
-            emit("TABLETIN", 2, Value::Boolean(code != 0));
-        }
-        self.tablet.code = code;
-        emit("TABLETIN", 3, Value::Integer(code));
-        if pressed {
-            emit("TABLETIN", 6, position);
         }
     }
 
@@ -122,34 +101,10 @@ impl Desk {
     }
 }
 
-/// Buttons as the puck's code: 1, 2, 4, 8. A pen's tip is the first, its barrel buttons follow.
-fn button_code(sample: &PenSample) -> i32 {
-    if !sample.in_range {
-        return 0;
-    }
-    match sample.tool {
-        Tool::Puck | Tool::Mouse => (sample.buttons & 15) as i32,
-        Tool::Pen | Tool::Eraser => i32::from(sample.tip) | ((sample.buttons & 7) << 1) as i32,
-    }
-}
-
-fn tablet_position(sample: &PenSample, surface: Surface) -> DVec2 {
-    let inches = |axis: usize| f64::from(surface.max_counts[axis]) / surface.counts_per_inch[axis].max(1.0);
-    let half_long_side = inches(0).max(inches(1)).max(f64::MIN_POSITIVE) / 2.0;
-    let from_middle = |counts: u32, axis: usize| {
-        let share = f64::from(counts) / f64::from(surface.max_counts[axis].max(1));
-        (share - 0.5) * inches(axis) / half_long_side
-    };
-    // Counts grow downwards; `0 − y` rather than `−y`, which would make the middle −0.
-    DVec2::new(
-        from_middle(sample.x_counts, 0),
-        0.0 - from_middle(sample.y_counts, 1),
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use device::codec::{PenSample, Tool};
 
     const SURFACE: Surface = Surface::flat([4000, 2000], [1000.0, 1000.0], 255);
     const SOURCE: Source = Source {

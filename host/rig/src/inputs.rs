@@ -1,13 +1,14 @@
 //! The input devices of the rig: opened by address, polled in the order of their names, looked for again when
 //! they are gone.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use device::clock::Instant;
 use device::codec::{Feedback, InputEvent, Stamped};
 use device::transport::{Transport, TransportError};
 use device::{Device, Health, UnknownFormat};
-use device_profiles::{ControlClass, Profiles};
+use device_profiles::{ControlClass, InputProfile, Profiles};
 
 use crate::controls::view::{DeviceHealth, DeviceView};
 use crate::desk::Source;
@@ -61,6 +62,15 @@ pub(crate) struct Inputs {
     heard: Vec<Stamped<InputEvent>>,
 }
 
+/// Something a device said.
+#[derive(Clone, Debug)]
+pub(crate) struct Heard {
+    /// Place of the device among the seats.
+    pub(crate) seat: usize,
+    pub(crate) event: Stamped<InputEvent>,
+    pub(crate) source: Source,
+}
+
 struct Seat {
     spec: InputSpec,
     make: Make,
@@ -68,17 +78,10 @@ struct Seat {
     counts_per_turn: f64,
     dials: u16,
     device: Option<Device>,
+    profile: Arc<InputProfile>,
     health: DeviceHealth,
     events: u64,
     look_at: Instant,
-    shown: Shown,
-}
-
-/// What the device was last told to show, so that only changes go out.
-#[derive(Default)]
-struct Shown {
-    lamps: u32,
-    labels: Vec<String>,
 }
 
 type Make = Box<dyn Fn(Box<dyn Transport>) -> Result<Device, UnknownFormat> + Send>;
@@ -86,8 +89,12 @@ type Make = Box<dyn Fn(Box<dyn Transport>) -> Result<Device, UnknownFormat> + Se
 /// What became of a device during a poll, for the person at the rig.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Change {
+    /// It answers.
     Came(String),
-    Gone(String),
+    /// It does not answer any more, and why.
+    Gone(String, String),
+    /// It could not be opened, and why.
+    Absent(String, String),
 }
 
 impl Inputs {
@@ -108,29 +115,54 @@ impl Inputs {
         })
     }
 
-    /// Polls every device in order; `hear` gets each event with what is known of its device.
+    /// Polls every device in the order of their names. What they said is appended in the order of its times, equal
+    /// ones in the order of the names.
     pub(crate) fn poll(
         &mut self,
         now: Instant,
         ports: &mut dyn Ports,
-        hear: &mut dyn FnMut(&InputEvent, Source),
+        heard: &mut Vec<Heard>,
         noticed: &mut dyn FnMut(Change),
     ) {
-        for seat in &mut self.seats {
+        for (seat, it) in self.seats.iter_mut().enumerate() {
             self.heard.clear();
-            seat.poll(now, ports, &mut self.heard, noticed);
-            let source = seat.source();
-            for event in &self.heard {
-                seat.events += 1;
-                hear(&event.what, source);
-            }
+            it.poll(now, ports, &mut self.heard, noticed);
+            it.events += self.heard.len() as u64;
+            let source = it.source();
+            heard.extend(self.heard.drain(..).map(|event| Heard { seat, event, source }));
+        }
+        // Stable, so that what one device said stays in its order.
+        heard.sort_by_key(|it| it.event.at);
+    }
+
+    /// What the rig calls the device of a seat.
+    pub(crate) fn name(&self, seat: usize) -> Option<&str> {
+        self.seats.get(seat).map(|seat| seat.spec.name.as_str())
+    }
+
+    /// All devices and their profiles, in the order of their names.
+    pub(crate) fn devices(&self) -> impl Iterator<Item = (&str, &Arc<InputProfile>)> {
+        self.seats
+            .iter()
+            .map(|seat| (seat.spec.name.as_str(), &seat.profile))
+    }
+
+    /// Keeps a device's place among equal ones.
+    pub(crate) fn pin(&mut self, name: &str, slot: Option<u16>) -> Result<(), String> {
+        let _ = slot;
+        match self.seats.iter().find(|seat| seat.spec.name == name) {
+            // An address that was given is the place.
+            Some(seat) => Err(format!("{name} is kept at {} already", seat.spec.address)),
+            None => Err(format!("there is no input device {name}")),
         }
     }
 
-    /// Tells every device what the desk shows.
-    pub(crate) fn show<'a>(&mut self, lamps: u32, labels: &(impl Iterator<Item = &'a str> + Clone)) {
-        for seat in &mut self.seats {
-            seat.show(lamps, labels.clone());
+    /// Has a device show something. One that is away shows it when it is back.
+    pub(crate) fn show(&mut self, name: &str, feedback: &Feedback) {
+        let seat = self.seats.iter_mut().find(|seat| seat.spec.name == name);
+        if let Some(device) = seat.and_then(|seat| seat.device.as_mut()) {
+            // A line that is gone is found out by the next poll.
+            let _ = device.show(feedback);
         }
     }
 
@@ -166,8 +198,9 @@ impl Seat {
         })?;
         let (baud, counts_per_turn) = (profile.baud(), profile.counts_per_turn());
         let dials = profile.count(ControlClass::Dial);
-        let profile = profile.clone();
-        let make: Make = Box::new(move |line| Device::of_profile(name.clone(), &profile, line));
+        let profile = Arc::new(profile.clone());
+        let own = Arc::clone(&profile);
+        let make: Make = Box::new(move |line| Device::of_profile(name.clone(), &own, line));
         Ok(Self {
             spec,
             make,
@@ -178,7 +211,7 @@ impl Seat {
             health: DeviceHealth::Lost,
             events: 0,
             look_at: Instant::ZERO,
-            shown: Shown::default(),
+            profile,
         })
     }
 
@@ -193,7 +226,7 @@ impl Seat {
             self.look_at = now.after(LOOK_AGAIN);
             match ports.open(&self.spec.address, self.baud) {
                 Ok(line) => self.take(line),
-                Err(error) => noticed(Change::Gone(format!("{}: {error}", self.spec.name))),
+                Err(error) => noticed(Change::Absent(self.spec.name.clone(), error.to_string())),
             }
         }
         let Some(device) = &mut self.device else { return };
@@ -210,7 +243,7 @@ impl Seat {
                 DeviceHealth::Present => noticed(Change::Came(self.spec.name.clone())),
                 DeviceHealth::Lost => {
                     let why = device.lost().map(TransportError::to_string).unwrap_or_default();
-                    noticed(Change::Gone(format!("{}: {why}", self.spec.name)));
+                    noticed(Change::Gone(self.spec.name.clone(), why));
                     self.look_at = now.after(LOOK_AGAIN);
                 }
                 _ => {}
@@ -232,30 +265,6 @@ impl Seat {
                     self.health = DeviceHealth::Lost;
                 }
             },
-        }
-    }
-
-    fn show<'a>(&mut self, lamps: u32, labels: impl Iterator<Item = &'a str>) {
-        let Some(device) = &mut self.device else { return };
-        if self.dials == 0 {
-            return;
-        }
-        if lamps != self.shown.lamps {
-            self.shown.lamps = lamps;
-            // A line that is gone is found out by the next poll.
-            let _ = device.show(&Feedback::Lamps(lamps.into()));
-        }
-        for (control, label) in labels.enumerate() {
-            if self.shown.labels.len() == control {
-                self.shown.labels.push(String::new());
-            }
-            if self.shown.labels[control] != label {
-                label.clone_into(&mut self.shown.labels[control]);
-                let _ = device.show(&Feedback::Label {
-                    control: control as u16,
-                    text: label.to_owned(),
-                });
-            }
         }
     }
 

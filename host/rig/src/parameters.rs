@@ -5,7 +5,7 @@
 
 use ps300::value::{Kind, Kinds, Value};
 
-use crate::command::{Command, PoseCommand, PuppetCommand, Side, TransportCommand, ViewCommand};
+use crate::command::{Command, PoseCommand, PuppetCommand, PuppetPose, Side, TransportCommand, ViewCommand};
 
 /// A parameter: a name and its inlets, numbered from 1.
 #[derive(Debug)]
@@ -40,6 +40,19 @@ pub(crate) enum Request {
     KineticStep(i32),
     /// Adds to the selected kinetic coefficient.
     KineticBy(f64),
+    /// Turns the view about the vertical to an angle, radians.
+    Azimuth(f64),
+    /// Tilts the view to an angle, radians.
+    Elevation(f64),
+    /// Adds to the playing speed.
+    SpeedBy(f64),
+    /// Twists a link further.
+    TwistBy {
+        /// By its place in the figure's order.
+        link: u16,
+        /// Radians.
+        by_rad: f64,
+    },
     /// Something that is not for networks to do, and why.
     NotForNetworks(&'static str),
 }
@@ -163,6 +176,14 @@ pub const PARAMETERS: &[Parameter] = &[
             inlet(Kinds::ANY, "any message restores the front view", |_| {
                 Some(Request::Command(Command::View(ViewCommand::Reset)))
             }),
+            inlet(
+                Kinds::NUMBER,
+                "goes to an angle about the vertical, degrees, 0 the front view",
+                |v| Some(Request::Azimuth(degrees(v)?)),
+            ),
+            inlet(Kinds::NUMBER, "goes to a tilt, degrees, 0 the front view", |v| {
+                Some(Request::Elevation(degrees(v)?))
+            }),
         ],
     },
     Parameter {
@@ -182,6 +203,12 @@ pub const PARAMETERS: &[Parameter] = &[
             }),
             inlet(Kinds::ANY, "any message switches looping", |_| {
                 Some(time(TransportCommand::ToggleLoop))
+            }),
+            inlet(Kinds::NUMBER, "goes to a playing speed, 1 as it was made", |v| {
+                Some(time(TransportCommand::Speed(real(v)?)))
+            }),
+            inlet(Kinds::NUMBER, "changes the playing speed, added", |v| {
+                Some(Request::SpeedBy(real(v)?))
             }),
         ],
     },
@@ -280,6 +307,19 @@ pub const LINK: &[(Kinds, &str)] = &[
         "direction of the link, world axes; need not be unit",
     ),
     (Kinds::NUMBER, "twist about its own axis, degrees"),
+    (Kinds::NUMBER, "twists it about its own axis, degrees, added"),
+];
+
+/// Inlets of every joint of the puppet; its name is `PUPPET.` and the joint's.
+pub const JOINT: &[(Kinds, &str)] = &[
+    (
+        Kinds::NUMBER,
+        "goes to an angle, degrees; it stops at the joint's range",
+    ),
+    (
+        Kinds::NUMBER,
+        "turns the joint, degrees, added; it stops at the joint's range",
+    ),
 ];
 
 /// What a link's inlet asks for.
@@ -293,8 +333,29 @@ pub(crate) fn link_request(link: u16, port: u8, value: &Value) -> Option<Request
             link,
             twist_rad: degrees(value)?,
         })),
+        (3, value) => Some(Request::TwistBy {
+            link,
+            by_rad: degrees(value)?,
+        }),
         _ => None,
     }
+}
+
+/// What a joint's inlet asks for.
+pub(crate) fn joint_request(joint: &str, port: u8, value: &Value) -> Option<Request> {
+    let joint = joint.to_owned();
+    let pose = match port {
+        1 => PuppetPose::Joint {
+            joint,
+            angle_rad: degrees(value)?,
+        },
+        2 => PuppetPose::JointBy {
+            joint,
+            by_rad: degrees(value)?,
+        },
+        _ => return None,
+    };
+    Some(Request::Command(Command::PuppetPose(pose)))
 }
 
 #[cfg(test)]

@@ -181,6 +181,21 @@ impl Stage {
         &self.pose
     }
 
+    /// The link the hands are on, by its place in the figure's order.
+    pub(crate) fn selected(&self) -> u16 {
+        self.selected
+    }
+
+    /// The figure's links, in its order.
+    pub(crate) fn figure(&self) -> &Figure {
+        &self.figure
+    }
+
+    /// A link's twist about its own axis.
+    pub(crate) fn twist_rad(&self, link: u16) -> Option<f64> {
+        self.pose.links.get(usize::from(link)).map(|it| it.twist_rad)
+    }
+
     pub(crate) fn posing(&self) -> bool {
         self.posing
     }

@@ -3,18 +3,22 @@
 //! A figure's shapes are commands of the same language, so they are drawn by a machine too: its own, because a
 //! shape called `line` must not meet a function called `line`.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::DMat4;
 use motion::figure::Figure;
 use ps300::Diagnostic;
 use ps300::display::{DisplayList, Stroke};
-use ps300::language::{self, Command, Position, Severity};
+use ps300::language::{self, Command, Disconnection, Name, Position, Severity};
 use ps300::machine::{Machine, Panel};
+use ps300::network::{Outlet, SinkId};
 use ps300::value::{Kinds, Value};
 
+use crate::controls::inlets::{self, Inlet, PAGES};
+use crate::controls::instance::Instance;
 use crate::document::{FigureDoc, Show};
-use crate::parameters::{self, LINK, PARAMETERS, Request};
+use crate::parameters::{self, JOINT, LINK, PARAMETERS, Request};
 
 /// Firings that the messages of one step may set off, and again its clocks; what is left goes on in the next one.
 const FIRINGS_PER_STEP: u32 = 20_000;
@@ -24,6 +28,12 @@ pub(crate) struct Wiring {
     machine: Machine,
     /// Upper-case names of the figure's link parameters, in the figure's order.
     links: Vec<String>,
+    /// The puppet's joints.
+    joints: Vec<String>,
+    /// Inlets of devices: whose, and what for.
+    device_inlets: BTreeMap<SinkId, (usize, Inlet)>,
+    /// What arrived there since it was last asked for.
+    device_messages: Vec<DeviceMessage>,
     frame: u64,
     secs: f64,
     /// Of [`FIRINGS_PER_STEP`].
@@ -53,6 +63,16 @@ pub(crate) fn machine_for(show: &Show) -> (Machine, Vec<String>) {
     (machine, links)
 }
 
+/// A message at an inlet of a device.
+pub(crate) struct DeviceMessage {
+    /// Which device, in the order in which they came to be known.
+    pub(crate) device: usize,
+    pub(crate) inlet: Inlet,
+    /// From 1.
+    pub(crate) number: u8,
+    pub(crate) value: Value,
+}
+
 /// What became of commands given while the rig runs.
 pub(crate) struct Done {
     /// What was wrong, with places in their text.
@@ -64,18 +84,26 @@ pub(crate) struct Done {
 }
 
 impl Wiring {
-    /// Loads the show's networks. What could not be read or done is told in words, with its place; the rest runs.
-    pub(crate) fn load(show: &Show) -> (Self, Vec<String>) {
+    /// Loads the show's networks, with the puppet's joints and the devices they may speak of. What could not be read
+    /// or done is told in words, with its place; the rest runs.
+    pub(crate) fn load(show: &Show, joints: &[String], devices: &mut [Instance]) -> (Self, Vec<String>) {
         let (machine, links) = machine_for(show);
         let mut remarks = Vec::new();
         let mut wiring = Self {
             machine,
             links,
+            joints: Vec::new(),
+            device_inlets: BTreeMap::new(),
+            device_messages: Vec::new(),
             frame: 0,
             secs: 0.0,
             firings_left: FIRINGS_PER_STEP,
             picture: (0, Arc::default()),
         };
+        wiring.declare_joints(joints);
+        for (at, device) in devices.iter_mut().enumerate() {
+            remarks.extend(wiring.declare_device(at, device).err());
+        }
         for file in &show.networks {
             let called = format!("{}.ps300", file.name);
             let found = wiring.machine.load_named(&called, &file.text);
@@ -84,6 +112,75 @@ impl Wiring {
         let found = wiring.machine.load_named("patches", &show.patches);
         remarks.extend(found.iter().map(|d| format!("patches:{d}")));
         (wiring, remarks)
+    }
+
+    fn declare_joints(&mut self, joints: &[String]) {
+        let kinds: Vec<Kinds> = JOINT.iter().map(|(kinds, _)| *kinds).collect();
+        for joint in joints {
+            // Robot files may name joints in ways the language cannot spell; they have no inlet then.
+            if let Err(error) = self.machine.declare_sink(&format!("PUPPET.{joint}"), &kinds) {
+                tracing::debug!("{error}");
+            }
+        }
+        self.joints = joints.to_vec();
+    }
+
+    /// Gives a device its senders and inlets; at any time. Says what name is in the way, if one is.
+    pub(crate) fn declare_device(&mut self, at: usize, device: &mut Instance) -> Result<(), String> {
+        let refused = |error: ps300::machine::DeclareError| {
+            format!(
+                "{} cannot be connected: {error}; rename what the network calls so, or the device",
+                device.device
+            )
+        };
+        let kinds = device.kinds();
+        let mut sources = Vec::new();
+        for page in 1..=PAGES {
+            let name = inlets::instance(&device.name, page);
+            sources.push(self.machine.declare_source(&name, &kinds).map_err(refused)?);
+        }
+        for (name, inlet, kinds) in inlets::all(&device.name, device.inlet_count()) {
+            let sink = self.machine.declare_sink(&name, &kinds).map_err(refused)?;
+            self.device_inlets.insert(sink, (at, inlet));
+        }
+        device.sources = sources;
+        Ok(())
+    }
+
+    /// Does what a program says of a device that came after it was loaded: its wires, and what is sent to it.
+    pub(crate) fn connect_late(&mut self, program: &str, device: &Instance) {
+        let mut names: BTreeSet<Name> = (1..=PAGES)
+            .map(|page| Name::new(&inlets::instance(&device.name, page)))
+            .collect();
+        let inlets = inlets::all(&device.name, device.inlet_count());
+        names.extend(inlets.iter().map(|(name, ..)| Name::new(name)));
+        for located in language::parse(program).0 {
+            let speaks_of_it = match &located.what {
+                Command::Connect { from, to } | Command::Disconnect(Disconnection::Pair { from, to }) => {
+                    names.contains(&from.name) || names.contains(&to.name)
+                }
+                Command::Disconnect(Disconnection::Output(from)) => names.contains(&from.name),
+                Command::Disconnect(Disconnection::All(name)) => names.contains(name),
+                Command::Send { to, .. } => names.contains(&to.name),
+                _ => false,
+            };
+            if speaks_of_it {
+                // What it cannot do now it could not have done then; a program says so when it is loaded.
+                let _ = self.machine.execute(&located.what);
+            }
+        }
+    }
+
+    /// Whether a name is that of an inlet of a device.
+    pub(crate) fn device_inlet(&self, name: &Name) -> Option<(usize, Inlet)> {
+        let mut all = self.device_inlets.iter();
+        all.find(|(sink, _)| self.machine.sink_name(**sink) == Some(name))
+            .map(|(_, at)| *at)
+    }
+
+    /// What arrived at inlets of devices, in order.
+    pub(crate) fn device_messages(&mut self) -> Vec<DeviceMessage> {
+        std::mem::take(&mut self.device_messages)
     }
 
     /// Executes commands given while the rig runs.
@@ -148,6 +245,17 @@ impl Wiring {
         self.firings_left -= self.machine.go_on(self.firings_left).firings();
     }
 
+    /// The same from a device's sender.
+    pub(crate) fn hear_from(&mut self, outlet: Outlet, value: Value) {
+        self.machine.emit_from(outlet, value);
+        self.firings_left -= self.machine.go_on(self.firings_left).firings();
+    }
+
+    /// Moves network time on to that of a message, never beyond the step it belongs to.
+    pub(crate) fn pass_to(&mut self, secs: f64) {
+        self.firings_left -= self.machine.pass_to(secs, self.firings_left).firings();
+    }
+
     /// Says how the rig's picture shows the world, so that what lies in it can be picked.
     pub(crate) fn see_from(&mut self, view: &crate::snapshot::ViewState) {
         self.machine.set_camera(view.tablet_from_world());
@@ -165,8 +273,28 @@ impl Wiring {
     /// What arrived at the rig's parameters, in order.
     pub(crate) fn requests(&mut self) -> Vec<Request> {
         let mut requests = Vec::new();
-        let links = &self.links;
-        self.machine.drain_sinks(|_, name, port, value| {
+        let Self {
+            links,
+            joints,
+            device_inlets,
+            device_messages,
+            ..
+        } = self;
+        self.machine.drain_sinks(|sink, name, port, value| {
+            if let Some(&(device, inlet)) = device_inlets.get(&sink) {
+                device_messages.push(DeviceMessage {
+                    device,
+                    inlet,
+                    number: port,
+                    value,
+                });
+                return;
+            }
+            if let Some(joint) = crate::controls::drive::joint(name) {
+                let known = joints.iter().find(|it| it.eq_ignore_ascii_case(joint));
+                requests.extend(known.and_then(|it| parameters::joint_request(it, port, &value)));
+                return;
+            }
             let upper = name.to_ascii_uppercase();
             let request = match links.iter().position(|link| *link == upper) {
                 Some(link) => parameters::link_request(link as u16, port, &value),

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use ps300::value::Kinds;
-use rig::parameters::{LINK, PARAMETERS};
+use rig::parameters::{JOINT, LINK, PARAMETERS};
 
 const HEAD: &str = "\
 # Parameters
@@ -38,6 +38,13 @@ One for each link of the show's figure, by the link's name: `FIGURE.rua`. A link
 cannot spell (motion capture has such) has none.
 ";
 
+const JOINT_HEAD: &str = "
+## PUPPET.joint
+
+One for each joint of the show's puppet, by the joint's name: `PUPPET.elbow`. It poses the puppet as it is on screen;
+the servos follow where the puppet follows. A joint whose name the command language cannot spell has none.
+";
+
 const COLUMNS: &str = "
 | inlet | takes | does |
 |---|---|---|
@@ -53,6 +60,8 @@ fn page() -> String {
     }
     let _ = write!(page, "{LINK_HEAD}{COLUMNS}");
     rows(&mut page, LINK.iter().copied());
+    let _ = write!(page, "{JOINT_HEAD}{COLUMNS}");
+    rows(&mut page, JOINT.iter().copied());
     page
 }
 
@@ -88,7 +97,7 @@ fn every_inlet_says_what_it_does() {
     let all = PARAMETERS.iter().flat_map(|parameter| parameter.inlets);
     let meanings = all
         .map(|inlet| inlet.meaning)
-        .chain(LINK.iter().map(|(_, meaning)| *meaning));
+        .chain(LINK.iter().chain(JOINT).map(|(_, meaning)| *meaning));
     for meaning in meanings {
         assert!(
             !meaning.is_empty() && !meaning.contains('\n'),

@@ -73,6 +73,12 @@ pub fn check(text: &str, picture: &Picture) -> Vec<Diagnostic> {
         // Labels and lamps are every machine's own; it has them already.
         let _ = machine.declare_sink(parameter.name.as_str(), &kinds);
     }
+    let devices = picture.boxes.iter().chain(&picture.unwired);
+    for device in devices.filter(|b| b.role == Role::Device && !b.outputs.is_empty()) {
+        let kinds: Vec<ps300::Kinds> = device.outputs.iter().map(|output| output.kinds).collect();
+        // Likewise of those that every machine has.
+        let _ = machine.declare_source(device.name.as_str(), &kinds);
+    }
     machine.load(text)
 }
 

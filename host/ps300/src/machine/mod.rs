@@ -328,6 +328,11 @@ impl Machine {
         self.network.sink_last(sink, input)
     }
 
+    /// The name a sink was declared with.
+    pub fn sink_name(&self, sink: SinkId) -> Option<&Name> {
+        self.network.sink(sink).map(|sink| &sink.name)
+    }
+
     /// Labels, lamps and message line.
     pub fn panel(&self) -> &Panel {
         &self.panel
@@ -348,6 +353,11 @@ impl Machine {
     /// Whether commands, the host or the machine itself have given `name` a meaning.
     pub fn is_defined(&self, name: &str) -> bool {
         self.names.named(name).is_some()
+    }
+
+    /// Whether something defined is called nearly so: whether the name may be misspelt.
+    pub fn is_nearly_defined(&self, name: &Name) -> bool {
+        !self.names.alike(name).is_empty()
     }
 
     /// Records every message of an output from now on. False if there is no such output.

@@ -71,6 +71,16 @@ impl Machine {
             .collect()
     }
 
+    /// What the next firing of a function sees at an input: a constant, or the message that waits longest.
+    pub fn front(&self, name: &str, input: u8) -> Option<&Value> {
+        let Thing::Instance(id) = self.names.named(name)? else {
+            return None;
+        };
+        let instance = self.network.instance(id)?;
+        let port = instance.input_ports().get(usize::from(input).checked_sub(1)?)?;
+        port.front()
+    }
+
     /// Every wire, by sender in the order they were made.
     pub fn connections(&self) -> Vec<ConnectionView> {
         let mut wires = Vec::new();

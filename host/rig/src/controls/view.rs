@@ -100,6 +100,8 @@ pub struct OutputView {
     pub of_kind: u16,
     /// The control it stands beside, by its number.
     pub control: Option<u8>,
+    /// `n` of its inlet: `NAME_LAMP<n>` and so on.
+    pub inlet: u8,
     /// What it was last told to show, in words.
     pub shows: String,
 }

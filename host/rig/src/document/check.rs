@@ -13,6 +13,7 @@ use super::folder;
 use super::show::Show;
 use super::source::Source;
 use super::structure;
+use crate::controls::assumed::assume_devices;
 use crate::journal::{JournalError, Script};
 use crate::wiring::machine_for;
 
@@ -107,7 +108,16 @@ fn check_networks(show: &Show, folder: &Path, found: &mut Findings) {
     let networks = paths
         .into_iter()
         .zip(show.networks.iter().map(|network| network.text.as_str()));
-    for (path, text) in networks.chain([(folder.join("patches.ps300"), &*show.patches)]) {
+    let texts: Vec<_> = networks
+        .chain([(folder.join("patches.ps300"), &*show.patches)])
+        .collect();
+    // Which devices the show will meet, and what its puppet's joints are called, is not known here.
+    let commands: Vec<_> = texts
+        .iter()
+        .flat_map(|(_, text)| language::parse(text).0)
+        .collect();
+    assume_devices(&mut machine, &commands);
+    for (path, text) in texts {
         let remarks = machine.load(text);
         note(&Source::from_text(&path, text), remarks, found);
     }

@@ -131,6 +131,28 @@ impl Mannequin {
         self.by_hand
     }
 
+    /// A joint's name as the profile has it, where it stands and how far it may go, radians; none of joints that
+    /// follow others.
+    pub(crate) fn joint(&self, name: &str) -> Option<(&str, f64, [f64; 2])> {
+        let place = self
+            .model
+            .joints
+            .iter()
+            .position(|it| it.eq_ignore_ascii_case(name))?;
+        let leads = self.model.chain.led(JointIndex(place as u16)).is_none();
+        let range = self.model.chain.joints().get(place).filter(|_| leads)?.range_rad;
+        Some((
+            &self.model.joints[place],
+            self.angles_rad[place],
+            [range.start, range.end],
+        ))
+    }
+
+    /// The names of all joints.
+    pub(crate) fn joints(&self) -> &[String] {
+        &self.model.joints
+    }
+
     pub(crate) fn angles_rad(&self) -> &[f64] {
         &self.angles_rad
     }

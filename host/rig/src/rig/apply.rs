@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Rig;
-use crate::command::{Command, EditCommand, PoseCommand, ViewCommand};
+use crate::command::{Command, EditCommand, PoseCommand, TransportCommand, ViewCommand};
 use crate::document;
 use crate::parameters::Request;
 use crate::snapshot::NoteLevel;
@@ -81,11 +81,31 @@ impl Rig {
                 let at = (self.coefficient as i64).saturating_add(i64::from(step));
                 self.coefficient = at.clamp(1, last as i64) as usize;
             }
+            Request::Azimuth(to_rad) => self.turn_view([to_rad - self.view.azimuth_rad, 0.0]),
+            Request::Elevation(to_rad) => self.turn_view([0.0, to_rad - self.view.elevation_rad]),
+            Request::SpeedBy(by) => {
+                let speed = self.timeline.view().speed + by;
+                self.apply(&Command::Transport(TransportCommand::Speed(speed)));
+            }
+            Request::TwistBy { link, by_rad } => {
+                let twist_rad = self.stage.as_ref().and_then(|stage| stage.twist_rad(link));
+                if let Some(twist_rad) = twist_rad {
+                    let twist_rad = twist_rad + by_rad;
+                    self.apply(&Command::Pose(PoseCommand::LinkTwist { link, twist_rad }));
+                }
+            }
             Request::KineticBy(by) => {
                 let coefficient = self.coefficient;
                 self.apply(&Command::Edit(EditCommand::Kinetics { coefficient, by }));
             }
         }
+    }
+
+    fn turn_view(&mut self, [azimuth_by_rad, elevation_by_rad]: [f64; 2]) {
+        self.apply(&Command::View(ViewCommand::Turn {
+            azimuth_by_rad,
+            elevation_by_rad,
+        }));
     }
 
     /// Seeking inside the clip shows the clip. Outside it there is nothing to see but the held end, so a pose

@@ -1,11 +1,12 @@
 //! The rig: one value that steps.
 //!
-//! A step has one fixed order, so that the same inputs give the same step: devices by name, their tokens into
-//! the network; commands; network time; what reached the rig's parameters; animation time; the puppet; feedback
+//! A step has one fixed order, so that the same inputs give the same step: what devices said, by its time and
+//! then by their names, into the network; commands; network time; what reached the rig's parameters; animation time; the puppet; feedback
 //! to the devices; the snapshot.
 
 mod apply;
 mod controls;
+mod learn;
 mod look;
 mod network;
 mod rehearse;
@@ -20,10 +21,11 @@ use device_profiles::Profiles;
 use motion::clip::Clip;
 
 use crate::command::Command;
+use crate::controls::Controls;
 use crate::desk::Desk;
 use crate::document::Show;
 use crate::history::History;
-use crate::inputs::{Change, InputError, InputSpec, Inputs};
+use crate::inputs::{Heard, InputError, InputSpec, Inputs};
 use crate::journal::Recorder;
 use crate::network_look::Looking;
 use crate::network_steps::NetworkSteps;
@@ -85,7 +87,12 @@ pub struct Rig {
     timeline: Timeline,
     view: ViewState,
     desk: Desk,
+    controls: Controls,
+    /// The joint that was posed last, while no link was.
+    joint_in_hand: Option<String>,
     inputs: Inputs,
+    /// What devices said in one step; kept, so that listening does not allocate.
+    heard: Vec<Heard>,
     puppet: Option<Seat>,
     rehearsing: Option<Rehearsing>,
     /// The pose on screen is the puppet's own.
@@ -117,7 +124,12 @@ impl Rig {
             .map(|spec| Seat::new(spec, &show.demands, &profiles, Arc::clone(&clock)))
             .transpose()?;
         let rehearsing = Rehearsing::of(puppet.as_ref(), &show, &profiles);
-        let (wiring, remarks) = Wiring::load(&show);
+        let mut controls = Controls::default();
+        for (name, profile) in inputs.devices() {
+            controls.add(name, profile);
+        }
+        let joints = rehearsing.as_ref().map_or(&[][..], |it| it.mannequin().joints());
+        let (wiring, remarks) = Wiring::load(&show, joints, &mut controls.instances);
         let began = clock.now();
         let history = History::new(show);
         let mut rig = Self {
@@ -136,7 +148,10 @@ impl Rig {
             timeline: Timeline::default(),
             view: ViewState::default(),
             desk: Desk::default(),
+            controls,
+            joint_in_hand: None,
             inputs,
+            heard: Vec::new(),
             puppet,
             rehearsing,
             teaching: false,
@@ -170,7 +185,9 @@ impl Rig {
         self.hear_devices();
         for command in &commands {
             self.apply(command);
+            self.learn_parameter(command);
         }
+        self.learn_if_touched();
         self.wiring.see_from(&self.view);
         for remark in self.wiring.tick(self.secs()) {
             self.note(NoteLevel::Warning, remark);
@@ -198,30 +215,13 @@ impl Rig {
         self.notes.add(self.secs(), level, text);
     }
 
-    fn hear_devices(&mut self) {
-        let (desk, wiring, notes) = (&mut self.desk, &mut self.wiring, &mut self.notes);
-        let secs = self.now.since(self.began).as_secs_f64();
-        self.inputs.poll(
-            self.now,
-            self.ports.as_mut(),
-            &mut |event, source| {
-                desk.hear(event, source, secs, &mut |instance, output, value| {
-                    wiring.hear(instance, output, value);
-                });
-            },
-            &mut |change| match change {
-                Change::Came(name) => notes.add(secs, NoteLevel::Info, format!("{name} is there")),
-                Change::Gone(why) => notes.add(secs, NoteLevel::Warning, why),
-            },
-        );
-    }
-
     /// Does what messages at the rig's parameters ask for. Their effects may send again; that is for the next
     /// step, so a loop through the rig cannot hold it up.
     fn take_requests(&mut self) {
         for request in self.wiring.requests() {
             self.apply_request(request);
         }
+        self.take_device_messages();
     }
 
     fn advance_time(&mut self, elapsed_secs: f64) {
@@ -249,16 +249,6 @@ impl Rig {
         {
             self.show_clip();
         }
-    }
-
-    fn show_on_devices(&mut self) {
-        let panel = self.wiring.panel();
-        let labels = panel
-            .dial_labels
-            .iter()
-            .chain(&panel.key_labels)
-            .map(String::as_str);
-        self.inputs.show(panel.lamps, &labels);
     }
 
     /// Puts the show's figure on stage, in its rest pose.

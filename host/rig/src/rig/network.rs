@@ -32,6 +32,7 @@ impl Rig {
                 let found = self.wiring.edit_program(&from, text);
                 if !found.iter().any(is_error) && from != *text {
                     self.network_changed(show, "network program", None, before);
+                    self.tell_devices_again(&[from, text.clone()]);
                 }
                 self.told(&found)
             }
@@ -60,6 +61,7 @@ impl Rig {
         if show.patches == before.patches && show.networks == before.networks {
             return;
         }
+        let programs = [before.program_text(), show.program_text()];
         if let Some([from, to]) = self.network_steps.between(before, &show) {
             self.wiring.restore(&from, &to);
         } else {
@@ -67,6 +69,7 @@ impl Rig {
             self.wiring
                 .edit_program(&before.program_text(), &show.program_text());
         }
+        self.tell_devices_again(&programs);
     }
 
     pub(super) fn look_at_network(&mut self, on: bool) {

@@ -65,6 +65,11 @@ impl Rehearsing {
         (self.by_hand() || self.track.is_some()).then(|| self.mannequin.angles_rad())
     }
 
+    /// The puppet as it is posed on screen.
+    pub(super) fn mannequin(&self) -> &Mannequin {
+        &self.mannequin
+    }
+
     pub(super) fn pose_view(&mut self) -> PuppetPoseView {
         self.mannequin.view()
     }

@@ -8,6 +8,7 @@ use ps300::machine::ExecuteError;
 use ps300::machine::devices::READOUTS;
 use ps300::network::{Made, Places};
 use ps300::value::Kinds;
+use rig::controls::assumed::assume_devices;
 use rig::document::Findings;
 use rig::document::source::Source;
 use rig::parameters::{LINK, PARAMETERS};
@@ -68,7 +69,9 @@ pub(super) fn host_inputs(name: &Name) -> Option<usize> {
 pub(super) fn load(files: &[PathBuf], console: &Console, found: &mut Findings) -> Machine {
     let mut machine = machine();
     for source in sources(files, console, found) {
-        declare_links(&mut machine, &language::parse(source.text()).0);
+        let commands = language::parse(source.text()).0;
+        declare_links(&mut machine, &commands);
+        assume_devices(&mut machine, &commands);
         let remarks = machine.load_named(&called(&source), source.text());
         diagnostics::note(&source, (1, 1), remarks, found);
     }
@@ -98,6 +101,8 @@ pub(super) fn load_watched(
         let (commands, remarks) = language::parse(source.text());
         declare_links(&mut reader, &commands);
         declare_links(&mut machine, &commands);
+        assume_devices(&mut reader, &commands);
+        assume_devices(&mut machine, &commands);
         let all = reader.load(source.text()).into_iter();
         let warnings = all.filter(|remark| remark.severity == Severity::Warning);
         diagnostics::note(&source, (1, 1), warnings, found);

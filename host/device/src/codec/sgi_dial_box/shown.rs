@@ -39,6 +39,14 @@ impl Shown {
     pub(super) fn want(&mut self, feedback: &Feedback) {
         match feedback {
             Feedback::Lamps(mask) => self.lamps = *mask as u32 & self.lamps_mask,
+            Feedback::Lamp { control, level, .. } => {
+                let lamp = 1_u32.checked_shl(u32::from(*control)).unwrap_or(0) & self.lamps_mask;
+                self.lamps = if *level > 0 {
+                    self.lamps | lamp
+                } else {
+                    self.lamps & !lamp
+                };
+            }
             Feedback::Label { control, text } => {
                 let there = u8::try_from(*control)
                     .ok()

@@ -1,0 +1,404 @@
+//! One control of a device: what its events become, with pickup, gears, dead zone and button mode.
+//!
+//! It must not know the network: what it is to send is returned, what it drives is told to it.
+
+use device_profiles::{Control as Group, ControlKind, ControlUnit};
+use ps300::value::{Kinds, Value};
+
+use super::bound::Bound;
+use super::button::Button;
+use super::gears::{Gear, with_dead_zone};
+use super::inlets::PAGES;
+use super::pickup::{Moment, Pickup, Way};
+use super::shown::VALUE_SECS;
+
+/// How long a control is drawn as live after it moved, seconds.
+const LIVE_SECS: f64 = 0.5;
+/// How long after a movement nothing is sent back to the control that made it, seconds: a hand that pauses is
+/// still on it.
+const OWN_SECS: f64 = 0.15;
+/// A push of this share of the range, or a turn of this share of a turn, is meant: what learning waits for.
+pub(crate) const MEANT: f64 = 0.05;
+
+/// When an event came, and in which gear the rig is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct At {
+    pub(crate) secs: f64,
+    pub(crate) step: u64,
+    pub(crate) fine: bool,
+}
+
+/// One control.
+#[derive(Debug)]
+pub(crate) struct Control {
+    /// Of its output.
+    pub(crate) number: u8,
+    /// Among those of its class, from 0: as events number it.
+    pub(crate) of_class: u16,
+    pub(crate) name: String,
+    pub(crate) kind: ControlKind,
+    pub(crate) unit: &'static str,
+    /// Counts at its ends.
+    range: [i32; 2],
+    counts_per_turn: f64,
+    /// Share of the range below which a change is noise.
+    noise: f64,
+    /// Share of the deflection that is the middle.
+    pub(crate) zone: f64,
+    zone_built: f64,
+    pub(crate) pickup: Pickup,
+    pub(crate) gear: Gear,
+    pub(crate) button: Button,
+    /// Where it is, in its unit.
+    pub(crate) value: f64,
+    moved_secs: Option<f64>,
+    /// A finger is on it, where it can tell.
+    pub(crate) touched: bool,
+    /// The place of the finger on a ring, counts.
+    finger: Option<i32>,
+    /// What it drives on the present page.
+    pub(crate) bound: Vec<Bound>,
+    /// Where the first of that stands, as a share of its own range; beyond it where it cannot get.
+    pub(crate) target: Option<f64>,
+    /// How the first of it would be read by people: its name, where it stands, as a share of its range.
+    pub(crate) reading: Option<Reading>,
+    /// Labels the network gave it, by page.
+    labels: [String; PAGES as usize],
+}
+
+/// Where a parameter stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Reading {
+    /// What people call it.
+    pub(crate) name: String,
+    /// In its unit; none where it cannot be read.
+    pub(crate) value: Option<f64>,
+    pub(crate) unit: &'static str,
+    /// Its ends, where it has any.
+    pub(crate) range: Option<[f64; 2]>,
+}
+
+impl Reading {
+    /// The value as a share of the range.
+    pub(crate) fn share(&self) -> Option<f64> {
+        let [low, high] = self.range.filter(|[low, high]| high > low)?;
+        Some(((self.value? - low) / (high - low)).clamp(0.0, 1.0))
+    }
+
+    /// The value as people read it, in few characters.
+    pub(crate) fn words(&self) -> Option<String> {
+        let value = self.value?;
+        let places = if value.abs() >= 100.0 {
+            0
+        } else {
+            2 - usize::from(value.abs() >= 10.0)
+        };
+        // `+ 0.0`, rounded, for a zero without a sign.
+        let factor = 10_f64.powi(places as i32);
+        let rounded = (value * factor).round() / factor + 0.0;
+        Some(format!(
+            "{rounded:.places$}{}",
+            if self.unit.len() == 1 {
+                format!(" {}", self.unit)
+            } else {
+                self.unit.to_owned()
+            }
+        ))
+    }
+}
+
+impl Control {
+    /// The `nth` of a group of the profile, from 0.
+    pub(crate) fn new(number: u8, group: &Group, nth: u16) -> Self {
+        let name = match group.names.get(usize::from(nth)) {
+            Some(name) => name.clone(),
+            None if group.count > 1 => format!("{} {}", group.name, nth + 1),
+            None => group.name.clone(),
+        };
+        let range = group.range.filter(|[low, high]| low != high).unwrap_or([0, 1023]);
+        let half = (f64::from(range[1]) - f64::from(range[0])).abs() / 2.0;
+        let zone = f64::from(group.dead_zone) / half;
+        let mut pickup = Pickup::default();
+        pickup.choose(way_built(group.kind));
+        Self {
+            number,
+            of_class: 0,
+            name,
+            kind: group.kind,
+            unit: unit(group.kind, group.unit),
+            range,
+            counts_per_turn: group.counts_per_turn.filter(|it| *it > 0.0).unwrap_or_else(|| {
+                // A ring without a word of its own is once round.
+                f64::from((range[1] - range[0]).unsigned_abs()) + 1.0
+            }),
+            noise: group.noise_share.unwrap_or(0.0),
+            zone,
+            zone_built: zone,
+            pickup,
+            gear: Gear::default(),
+            button: Button::default(),
+            value: 0.0,
+            moved_secs: None,
+            touched: false,
+            finger: None,
+            bound: Vec::new(),
+            target: None,
+            reading: None,
+            labels: Default::default(),
+        }
+    }
+
+    /// What its output may send.
+    pub(crate) fn kinds(&self) -> Kinds {
+        match self.kind {
+            ControlKind::Button => Kinds::BOOLEAN,
+            _ => Kinds::REAL,
+        }
+    }
+
+    /// It was turned by so many counts.
+    pub(crate) fn turned(&mut self, delta_counts: i32, at: At) -> Value {
+        let turns = f64::from(delta_counts) / self.counts_per_turn;
+        self.value += turns;
+        self.moved_secs = Some(at.secs);
+        Value::Real(self.gear.turn(turns, at.secs, at.fine))
+    }
+
+    /// It went down or came up.
+    pub(crate) fn pressed(&mut self, down: bool, at: At) -> Option<Value> {
+        if self.button.down != down {
+            self.moved_secs = Some(at.secs);
+        }
+        self.value = f64::from(u8::from(down));
+        self.button.hear(down).map(Value::Boolean)
+    }
+
+    /// It stands at so many counts.
+    pub(crate) fn stands(&mut self, counts: i32, at: At) -> Option<Value> {
+        let [low, high] = self.range.map(f64::from);
+        let share = ((f64::from(counts) - low) / (high - low)).clamp(0.0, 1.0);
+        let known = self.pickup.place();
+        if self.kind == ControlKind::Axis {
+            return self.deflected(share * 2.0 - 1.0, at);
+        }
+        let at_an_end = share == 0.0 || share == 1.0;
+        if known.is_some_and(|known| !at_an_end && (share - known).abs() < self.noise) {
+            return None;
+        }
+        if known != Some(share) {
+            self.value = share;
+            self.moved_secs = known.map_or(self.moved_secs, |_| Some(at.secs));
+        }
+        self.pickup.hear(share, self.moment(at)).map(Value::Real)
+    }
+
+    /// What springs back goes as it is pushed, unless it goes to a value that is known: then as any other.
+    fn deflected(&mut self, raw: f64, at: At) -> Option<Value> {
+        let deflection = with_dead_zone(raw, self.zone);
+        if deflection != self.value {
+            self.moved_secs = Some(at.secs);
+        }
+        let was = std::mem::replace(&mut self.value, deflection);
+        let share = f64::midpoint(deflection, 1.0);
+        let set = self.pickup.hear(share, self.moment(at));
+        match self.target {
+            Some(_) => set.map(|share| Value::Real(share * 2.0 - 1.0)),
+            None => (was != deflection).then_some(Value::Real(deflection)),
+        }
+    }
+
+    /// A finger is at a place of a ring or strip, or has left it.
+    pub(crate) fn fingered(&mut self, place: Option<u16>, at: At) -> Option<Value> {
+        let Some(place) = place else {
+            self.finger = None;
+            if self.kind == ControlKind::Strip {
+                self.pickup.lose();
+            }
+            return None;
+        };
+        let place = i32::from(place);
+        if self.kind == ControlKind::Strip {
+            return self.stands(place, at);
+        }
+        let before = self.finger.replace(place)?;
+        let round = (self.range[1] - self.range[0]).abs() + 1;
+        let half = round / 2;
+        let delta = (place - before + half).rem_euclid(round) - half;
+        (delta != 0).then(|| self.turned(delta, at))
+    }
+
+    /// The network gives it a label on a page.
+    pub(crate) fn labelled(&mut self, page: u8, value: Option<&Value>) {
+        if let Some(label) = self.labels.get_mut(usize::from(page).wrapping_sub(1)) {
+            *label = match value {
+                Some(Value::String(text)) => text.to_string(),
+                _ => String::new(),
+            };
+        }
+    }
+
+    /// Where what it drives stands, as a share: of its own range where it has one, else of the parameter's.
+    pub(crate) fn shown_share(&self) -> Option<f64> {
+        if self.is_absolute() {
+            return self.target.map(|it| it.clamp(0.0, 1.0));
+        }
+        self.reading.as_ref().and_then(Reading::share)
+    }
+
+    /// What stands beside it on a page: the network's label, else the name of what it drives, and the value while
+    /// it is moved; both where there is room for both.
+    pub(crate) fn label(&self, page: u8, characters: usize, now_secs: f64) -> String {
+        let own = self.labels.get(usize::from(page).wrapping_sub(1));
+        if let Some(own) = own.filter(|it| !it.is_empty()) {
+            return own.clone();
+        }
+        let Some(reading) = &self.reading else {
+            return String::new();
+        };
+        let Some(value) = reading.words() else {
+            return reading.name.clone();
+        };
+        let both = format!("{} {value}", reading.name);
+        let moved = self.moved_secs.is_some_and(|at| now_secs - at < VALUE_SECS);
+        if characters == 0 || both.chars().count() <= characters {
+            both
+        } else if moved {
+            value
+        } else {
+            reading.name.clone()
+        }
+    }
+
+    fn moment(&self, at: At) -> Moment {
+        Moment {
+            secs: at.secs,
+            step: at.step,
+            target: self.target,
+            fine: at.fine,
+        }
+    }
+
+    /// The device is gone. What springs back is let go; all else stays where it is.
+    pub(crate) fn lost(&mut self) -> Option<Value> {
+        self.pickup.lose();
+        self.touched = false;
+        self.finger = None;
+        let was = self.value;
+        let springs_back = self.kind == ControlKind::Axis && self.target.is_none();
+        if springs_back && was != 0.0 {
+            self.value = 0.0;
+            return Some(Value::Real(0.0));
+        }
+        None
+    }
+
+    /// Whether it has a place of its own, for which it has to be picked up.
+    pub(crate) fn is_absolute(&self) -> bool {
+        matches!(
+            self.kind,
+            ControlKind::Fader | ControlKind::Knob | ControlKind::Strip | ControlKind::Axis
+        )
+    }
+
+    /// Whether its next movement goes to what it drives.
+    pub(crate) fn picked_up(&self) -> bool {
+        !self.is_absolute()
+            || self.pickup.holds()
+            || (self.kind == ControlKind::Axis && self.target.is_none())
+    }
+
+    /// Where it would take hold, in its unit, as long as it has not.
+    pub(crate) fn awaits(&self) -> Option<f64> {
+        let share = self.target.filter(|_| !self.picked_up())?;
+        Some(match self.ends()? {
+            [low, high] => low + (high - low) * share,
+        })
+    }
+
+    pub(crate) fn is_live(&self, now_secs: f64) -> bool {
+        self.moved_secs.is_some_and(|at| now_secs - at < LIVE_SECS)
+    }
+
+    /// Whether a hand is on it, as far as that can be told: nothing is sent back to it then.
+    pub(crate) fn is_in_hand(&self, now_secs: f64) -> bool {
+        self.touched || self.moved_secs.is_some_and(|at| now_secs - at < OWN_SECS)
+    }
+
+    /// A value of its output as a share of its range, and back.
+    pub(crate) fn share_of(&self, sent: f64) -> f64 {
+        if self.kind == ControlKind::Axis {
+            f64::midpoint(sent, 1.0)
+        } else {
+            sent
+        }
+    }
+
+    /// The counts at a share of its range.
+    pub(crate) fn counts_at(&self, share: f64) -> i32 {
+        let [low, high] = self.range.map(f64::from);
+        (low + (high - low) * share.clamp(0.0, 1.0)).round() as i32
+    }
+
+    /// The ends of its value, where it has any.
+    pub(crate) fn ends(&self) -> Option<[f64; 2]> {
+        match self.kind {
+            ControlKind::Axis => Some([-1.0, 1.0]),
+            ControlKind::Dial | ControlKind::Ring => None,
+            _ => Some([0.0, 1.0]),
+        }
+    }
+
+    /// The word of its mode.
+    pub(crate) fn mode(&self) -> &'static str {
+        match self.kind {
+            ControlKind::Button => self.button.mode.word(),
+            ControlKind::Dial | ControlKind::Ring => "relative",
+            _ => self.pickup.way().word(),
+        }
+    }
+
+    /// Takes a word of `NAME_MODE`; an empty one is what it was built with. False for one it has no use for.
+    pub(crate) fn set_mode(&mut self, word: &str) -> bool {
+        let is = |known: &str| known.eq_ignore_ascii_case(word);
+        if word.is_empty() {
+            self.button.mode = super::button::ButtonMode::default();
+            self.pickup.choose(way_built(self.kind));
+            return true;
+        }
+        let mode = super::button::ButtonMode::WORDS
+            .iter()
+            .find(|(known, _)| is(known));
+        let way = Way::WORDS.iter().find(|(known, _)| is(known));
+        match (self.kind, mode, way) {
+            (ControlKind::Button, Some((_, mode)), _) => self.button.mode = *mode,
+            (_, _, Some((_, way))) if self.is_absolute() => self.pickup.choose(*way),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Takes a dead zone; none is what it was built with.
+    pub(crate) fn set_zone(&mut self, zone: Option<f64>) {
+        self.zone = zone.unwrap_or(self.zone_built);
+    }
+}
+
+/// A finger lands anywhere on a strip, so what it drives goes as far as the finger.
+fn way_built(kind: ControlKind) -> Way {
+    match kind {
+        ControlKind::Strip => Way::Relative,
+        _ => Way::Pickup,
+    }
+}
+
+fn unit(kind: ControlKind, unit: Option<ControlUnit>) -> &'static str {
+    match (kind, unit) {
+        (ControlKind::Button, _) => "",
+        (ControlKind::Dial | ControlKind::Ring, _) | (_, Some(ControlUnit::Turns)) => "turns",
+        _ => "share",
+    }
+}
+
+#[cfg(test)]
+#[path = "control_tests.rs"]
+mod tests;
