@@ -147,16 +147,6 @@ impl Inputs {
             .map(|seat| (seat.spec.name.as_str(), &seat.profile))
     }
 
-    /// Keeps a device's place among equal ones.
-    pub(crate) fn pin(&mut self, name: &str, slot: Option<u16>) -> Result<(), String> {
-        let _ = slot;
-        match self.seats.iter().find(|seat| seat.spec.name == name) {
-            // An address that was given is the place.
-            Some(seat) => Err(format!("{name} is kept at {} already", seat.spec.address)),
-            None => Err(format!("there is no input device {name}")),
-        }
-    }
-
     /// Has a device show something. One that is away shows it when it is back.
     pub(crate) fn show(&mut self, name: &str, feedback: &Feedback) {
         let seat = self.seats.iter_mut().find(|seat| seat.spec.name == name);

@@ -272,7 +272,11 @@ impl Rig {
                 output.test(secs);
                 Ok(())
             }
-            Command::PinDevice { device, slot } => self.inputs.pin(device, *slot),
+            Command::PinDevice { device, slot } => {
+                self.place_of(device)?;
+                let address = self.inputs.address(device).unwrap_or(device);
+                self.ports.pin(address, *slot)
+            }
             _ => Ok(()),
         }
     }
