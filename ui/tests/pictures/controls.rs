@@ -86,6 +86,7 @@ fn six() -> Snapshot {
         } else {
             String::new()
         },
+        ..OutputView::default()
     };
     dials.outputs = (0..20).map(lamp).collect();
     let mut faders = device(
