@@ -5,6 +5,7 @@ use crate::{InputProfile, Layout, ProfileError, PuppetProfile, ServoProfile};
 use include_dir::{Dir, include_dir};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 static SERVOS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/servos");
 static PUPPETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/puppets");
@@ -94,8 +95,19 @@ impl Profiles {
         match profile {
             Kind::Servo(p) => drop(self.servos.insert(p.key.clone(), *p)),
             Kind::Puppet(p) => drop(self.puppets.insert(p.key.clone(), *p)),
-            Kind::Input(p) => drop(self.inputs.insert(p.key.clone(), *p)),
-            Kind::Layout(l) => drop(self.layouts.insert(l.key.clone(), *l)),
+            Kind::Input(mut p) => {
+                let layout = p.layout.as_ref().and_then(|key| self.layouts.get(key));
+                p.of_layout = layout.cloned().map(Arc::new);
+                self.inputs.insert(p.key.clone(), *p);
+            }
+            Kind::Layout(l) => {
+                let shared = Arc::new((*l).clone());
+                let users = self.inputs.values_mut();
+                for profile in users.filter(|p| p.layout.as_ref() == Some(&l.key)) {
+                    profile.of_layout = Some(Arc::clone(&shared));
+                }
+                self.layouts.insert(l.key.clone(), *l);
+            }
         }
     }
 

@@ -37,6 +37,17 @@ pub struct Reports<'a> {
 }
 
 impl InputProfile {
+    /// What its reports mean, for a profile that came out of [`Profiles`]; none of a profile that stands alone and
+    /// names a layout.
+    pub fn tables(&self) -> Reports<'_> {
+        let layout = self.of_layout.as_deref().filter(|_| self.layout.is_some());
+        Reports {
+            reports: layout.map_or(&self.own_reports, |l| &l.reports),
+            skip_bytes: self.skip_bytes,
+            leave_after_ms: self.leave_after_ms.or(layout.and_then(|l| l.leave_after_ms)),
+        }
+    }
+
     /// What its reports mean: its own tables, or those of its layout.
     ///
     /// # Errors

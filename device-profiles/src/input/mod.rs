@@ -4,6 +4,7 @@
 //! [`InitStep`], what its reports mean in [`Report`] (often by way of a shared [`Layout`]), what a hand finds on
 //! it in [`Control`] and [`Surface`], what it can show in [`Output`].
 
+mod bare;
 mod bytes;
 mod check;
 mod control;
@@ -33,6 +34,7 @@ pub use surface::{Surface, Tool, ToolProfile};
 
 use crate::Status;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// One input device.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,6 +59,9 @@ pub struct InputProfile {
     /// Key of the layout that says what its reports mean; otherwise they stand here as `[[report]]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<String>,
+    /// That layout, once the profile is among others ([`Profiles::add`](crate::Profiles::add) puts it here).
+    #[serde(skip)]
+    pub of_layout: Option<Arc<Layout>>,
     /// Bytes that this device sends before those of the layout.
     #[serde(default, skip_serializing_if = "is_default")]
     pub skip_bytes: u16,

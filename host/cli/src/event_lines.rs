@@ -47,16 +47,25 @@ impl<'a> EventLines<'a> {
 }
 
 fn write(console: &Console, t: f64, told: &Told) -> Result<(), Failure> {
-    let fields = told.fields.iter().map(|&(name, value)| (name, value_of(value)));
-    if !console.json() {
-        let fields: Vec<String> = fields.map(|(name, value)| format!("{name} {value}")).collect();
-        return console.line(format_args!("{t:10.3}  {:<9} {}", told.event, fields.join("  ")));
+    if console.json() {
+        return console.record(&record_of(t, told));
     }
+    let fields = told
+        .fields
+        .iter()
+        .map(|&(name, value)| format!("{name} {}", value_of(value)));
+    let fields: Vec<String> = fields.collect();
+    console.line(format_args!("{t:10.3}  {:<9} {}", told.event, fields.join("  ")))
+}
+
+/// One event as a JSON object; `t` in seconds.
+pub(crate) fn record_of(t: f64, told: &Told) -> Map<String, Value> {
     let mut record = Map::new();
     record.insert("t".into(), json!((t * 1e6).round() / 1e6));
     record.insert("event".into(), json!(told.event));
-    record.extend(fields.map(|(name, value)| (name.to_owned(), value)));
-    console.record(&record)
+    let fields = told.fields.iter();
+    record.extend(fields.map(|&(name, value)| (name.to_owned(), value_of(value))));
+    record
 }
 
 fn value_of(said: Said) -> Value {

@@ -9,6 +9,7 @@
 pub mod calibration;
 pub mod command;
 pub mod controls;
+pub mod decode;
 mod desk;
 pub mod doctor;
 pub mod document;

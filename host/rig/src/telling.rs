@@ -38,6 +38,8 @@ pub enum Buttons {
     Numbered,
     /// `key1` and on: the keys beside a tablet's surface.
     Keys,
+    /// `button1` and on: those of a mouse, as a tool's are called.
+    Pointer,
 }
 
 /// Names events, remembers what changes are told against, and keeps tallies.
@@ -225,8 +227,13 @@ impl Teller {
     fn button(&mut self, control: u16, down: bool, told: &mut dyn FnMut(Told)) {
         let value = ("value", Said::Flag(down));
         match self.buttons {
-            Buttons::Keys => {
-                let name = format!("key{}", u32::from(control) + 1);
+            Buttons::Keys | Buttons::Pointer => {
+                let class = if self.buttons == Buttons::Keys {
+                    "key"
+                } else {
+                    "button"
+                };
+                let name = format!("{class}{}", u32::from(control) + 1);
                 self.edge(name.clone());
                 self.line(name, vec![value], told);
             }

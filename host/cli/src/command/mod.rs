@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod convert;
 mod curve;
+mod decode;
 mod demo;
 mod devices;
 mod figure;
@@ -33,6 +34,7 @@ pub(crate) enum Command {
     Figure(figure::Args),
     Curve(curve::Args),
     Net(net::Args),
+    Decode(decode::Args),
     Devices(devices::Args),
     Monitor(monitor::Args),
     Profile(profile::Args),
@@ -59,6 +61,7 @@ impl Command {
             Self::Figure(args) => figure::run(args, console),
             Self::Curve(args) => curve::run(args, console),
             Self::Net(args) => net::run(args, console),
+            Self::Decode(args) => decode::run(args, console),
             Self::Devices(args) => devices::run(args, console),
             Self::Monitor(args) => monitor::run(args, console),
             Self::Profile(args) => profile::run(args, console),

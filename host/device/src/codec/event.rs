@@ -93,8 +93,8 @@ pub struct PenSample {
     pub in_range: bool,
     /// The pen's or eraser's point is down.
     pub tip: bool,
-    /// x to the right and y towards the user, in steps of [`Surface::tilt_steps_per_rad`]; `None` where the
-    /// tablet does not say.
+    /// x and y as the tablet counts them; [`Surface::tilt_rad`] says which way that is. `None` where it does not
+    /// say.
     pub tilt: Option<[i16; 2]>,
     /// The tool's turn about its own axis, in steps of [`Surface::twist_steps_per_turn`].
     pub twist: Option<i16>,
@@ -164,6 +164,8 @@ pub struct Surface {
     pub pressure_max: u32,
     /// Steps of tilt in a radian; `None` where there is no tilt, or nobody has measured it.
     pub tilt_steps_per_rad: Option<f64>,
+    /// −1 where the tablet's count of a tilt falls to the right (x) or towards the user (y), 1 where it rises.
+    pub tilt_signs: [i8; 2],
     /// Steps of twist in a turn; `None` likewise.
     pub twist_steps_per_turn: Option<f64>,
 }
@@ -176,8 +178,18 @@ impl Surface {
             counts_per_inch,
             pressure_max,
             tilt_steps_per_rad: None,
+            tilt_signs: [1; 2],
             twist_steps_per_turn: None,
         }
+    }
+
+    /// A sample's tilt in radians, x to the right and y towards the user; `None` where the tablet does not say, or
+    /// nobody knows its steps.
+    pub fn tilt_rad(&self, sample: &PenSample) -> Option<[f64; 2]> {
+        let steps_per_rad = self.tilt_steps_per_rad?;
+        let [x, y] = sample.tilt?.map(f64::from);
+        let [sign_x, sign_y] = self.tilt_signs.map(f64::from);
+        Some([x * sign_x / steps_per_rad, y * sign_y / steps_per_rad])
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which codec reads which format: the one list of them.
 
 use super::handshake::Handshake;
+use super::hid::{HidCodec, PlanError};
 use super::sgi_dial_box::SgiDialBox;
 use super::wacom_iv::WacomIv;
 use super::{Codec, serial_formats};
@@ -16,15 +17,17 @@ pub enum Stand {
     Reporting,
 }
 
-/// The codec for a device of this profile, new; its handshake goes before it.
+/// The codec for a device of this profile, new; its handshake goes before it. The profile comes out of
+/// [`device_profiles::Profiles`], which know its layout.
 pub fn of_profile(profile: &InputProfile, stand: Stand) -> Result<Box<dyn Codec>, UnknownFormat> {
     let reports = stand == Stand::Reporting;
     let codec: Box<dyn Codec> = match profile.format.as_str() {
+        "hid" => Box::new(HidCodec::new(profile)?),
         "sgi-dial-box" if reports => Box::new(SgiDialBox::listening(profile)),
         "sgi-dial-box" => Box::new(SgiDialBox::new(profile)),
         "wacom-iv" if reports => Box::new(WacomIv::listening(profile)),
         "wacom-iv" => Box::new(WacomIv::new(profile)),
-        other => serial_formats::codec(profile, reports).ok_or_else(|| UnknownFormat {
+        other => serial_formats::codec(profile, reports).ok_or_else(|| UnknownFormat::Format {
             profile: profile.key.clone(),
             format: other.to_owned(),
         })?,
@@ -36,14 +39,20 @@ pub fn of_profile(profile: &InputProfile, stand: Stand) -> Result<Box<dyn Codec>
     })
 }
 
-/// A profile's format that no codec here reads.
+/// A profile that no codec here reads.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("profile \"{profile}\" has format \"{format}\", which no codec here reads")]
-pub struct UnknownFormat {
-    /// The profile's key.
-    pub profile: String,
-    /// What it says.
-    pub format: String,
+pub enum UnknownFormat {
+    /// Nobody knows its format.
+    #[error("profile \"{profile}\" has format \"{format}\", which no codec here reads")]
+    Format {
+        /// The profile's key.
+        profile: String,
+        /// What it says.
+        format: String,
+    },
+    /// Its tables of reports cannot be used.
+    #[error(transparent)]
+    Tables(#[from] PlanError),
 }
 
 #[cfg(test)]
@@ -53,7 +62,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     /// Formats of the profiles that are not read over a byte stream of their own.
-    const ELSEWHERE: [&str; 3] = ["hid", "midi", "osc"];
+    const ELSEWHERE: [&str; 2] = ["midi", "osc"];
 
     #[test]
     fn every_profile_of_every_format_has_a_codec() {

@@ -11,6 +11,7 @@ mod formats;
 pub mod gtco;
 mod handshake;
 mod held;
+pub mod hid;
 mod lines;
 pub mod mm;
 pub mod monome_arc;

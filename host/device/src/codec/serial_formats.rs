@@ -51,6 +51,7 @@ pub fn codec(profile: &InputProfile, reports: bool) -> Option<Box<dyn Codec>> {
 fn surface(profile: &InputProfile) -> Surface {
     let area = profile.area();
     Surface {
+        tilt_signs: [1; 2],
         max_counts: area.counts,
         counts_per_inch: area.per_inch(),
         pressure_max: area.pressure,
