@@ -73,9 +73,11 @@ fn an_intuos_is_asked_for_everything_and_reports_faster_where_its_rom_can() {
         assert_eq!(trial.hear(answer.as_bytes()), [text("~C\r")]);
         assert_eq!(trial.hear(b"~C30480,24060\r"), [text("~R\r")]);
         let set_up = trial.hear(b"~RE202C900,002,02,2540,2540\r");
-        assert_eq!(set_up, [text(&format!("MT1\rID1\rIT0\r{command}"))], "{answer}");
+        assert_eq!(set_up, [text("MT1\rID1\rIT0\r")]);
+        assert_eq!(trial.after_ms(20), [text(command)], "{answer}");
         assert!(!trial.codec.started());
-        assert_eq!(trial.after_ms(75), [Step::Baud(spoken), text("ST\r")]);
+        assert_eq!(trial.after_ms(89), []);
+        assert_eq!(trial.after_ms(1), [Step::Baud(spoken), text("ST\r")]);
         assert_eq!(trial.events, [InputEvent::Started]);
         assert_eq!(trial.codec.identity(), Some(answer[2..].trim()));
         let surface = trial.codec.surface().expect("a tablet has one");
