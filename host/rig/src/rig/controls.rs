@@ -75,6 +75,8 @@ impl Rig {
             .poll(self.now, self.ports.as_mut(), &mut heard, &mut |change| {
                 changes.push(change);
             });
+        // What was plugged in just now may have spoken already.
+        self.meet_new_devices();
         for it in heard.drain(..) {
             let Some(name) = self.inputs.name(it.seat) else {
                 continue;
