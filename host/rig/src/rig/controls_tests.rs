@@ -145,34 +145,32 @@ fn what_is_touched_is_connected_and_taken_back_in_one_step() {
     assert_eq!(bench.rig.network_text(), before);
 }
 
+fn bind(control: u8, to: &str, inlet: u8) -> Command {
+    Command::BindControl(Binding {
+        device: "nano".into(),
+        control,
+        page: None,
+        to: to.into(),
+        inlet,
+        range: None,
+    })
+}
+
+fn elbow_deg(bench: &Bench) -> f64 {
+    let pose = bench.seen.puppet_pose.as_ref().expect("there is a puppet");
+    let place = pose.names.iter().position(|it| it == "elbow_flex");
+    pose.angles_rad[place.expect("it has an elbow")].to_degrees()
+}
+
 #[test]
-fn joints_of_a_puppet_are_learnt_by_dials_buttons_and_sticks_alike() {
+fn dials_buttons_and_sticks_are_bound_each_in_its_way() {
     let mut bench = Bench::new("");
-    let bind = |control, to: &str, inlet| {
-        Command::BindControl(Binding {
-            device: "nano".into(),
-            control,
-            page: None,
-            to: to.into(),
-            inlet,
-            range: None,
-        })
-    };
     bench.step(&[
         bind(3, "PUPPET.elbow_flex", 1),
         bind(4, "TIME", 5),
         bind(5, "TIME", 2),
     ]);
-    let joint = |bench: &Bench| {
-        let pose = bench.seen.puppet_pose.as_ref().expect("there is a puppet");
-        let place = pose
-            .names
-            .iter()
-            .position(|it| it == "elbow_flex")
-            .expect("it has an elbow");
-        pose.angles_rad[place].to_degrees()
-    };
-    let start = joint(&bench);
+    let start = elbow_deg(&bench);
     bench.say(
         "nano",
         InputEvent::Dial {
@@ -181,42 +179,67 @@ fn joints_of_a_puppet_are_learnt_by_dials_buttons_and_sticks_alike() {
         },
     );
     bench.step(&[]);
+    let quarter = elbow_deg(&bench) - start;
     assert!(
-        (joint(&bench) - start - 22.5).abs() < 1e-9,
-        "a quarter of a turn of 90 degrees"
+        (quarter - 22.5).abs() < 1e-9,
+        "a quarter of 90 degrees: {quarter}"
     );
     let looped = bench.seen.transport.looped;
-    bench.say(
-        "nano",
-        InputEvent::Button {
-            control: 0,
-            down: true,
-        },
-    );
-    bench.say(
-        "nano",
-        InputEvent::Button {
-            control: 0,
-            down: false,
-        },
-    );
+    for down in [true, false] {
+        bench.say("nano", InputEvent::Button { control: 0, down });
+    }
     bench.step(&[]);
-    assert_ne!(
-        bench.seen.transport.looped, looped,
-        "once for a press and its release"
+    assert_ne!(bench.seen.transport.looped, looped, "once, not twice");
+    let controls = bench.view().controls;
+    assert_eq!(
+        (controls[3].mode, &controls[4].bound[..]),
+        ("press", &["TIME<2>".to_owned()][..])
     );
-    assert_eq!(bench.view().controls[3].mode, "press");
-    assert!(
-        bench
-            .seen
-            .notes
-            .iter()
-            .all(|note| !note.text.contains("use a button"))
-    );
-    bench.step(&[bind(1, "TIME", 3)]);
-    assert!(bench.notes().contains("use a button"), "{}", bench.notes());
-    bench.step(&[bind(1, "NOTHING", 3)]);
-    assert!(bench.notes().contains("the network has nothing called NOTHING"));
+}
+
+#[test]
+fn what_cannot_be_bound_is_said() {
+    let mut bench = Bench::new("");
+    for (command, words) in [
+        (bind(1, "TIME", 3), "use a button"),
+        (bind(1, "NOTHING", 3), "the network has nothing called NOTHING"),
+        (bind(9, "TIME", 2), "nano has no control 9"),
+    ] {
+        bench.step(&[command]);
+        assert!(bench.notes().contains(words), "{}", bench.notes());
+    }
+    assert!(!bench.rig.network_text().contains("LEARN"));
+}
+
+#[test]
+fn each_message_has_a_time_of_its_own() {
+    let mut bench = Bench::new("");
+    let place = bench.rig.controls.find("nano").expect("it is known");
+    let source = Source {
+        counts_per_turn: 1.0,
+        surface: None,
+    };
+    let mut seen = Vec::new();
+    let now = bench.rig.now;
+    for after_ms in [2, 5, 3, 9] {
+        let event = Stamped {
+            at: now.after(std::time::Duration::from_millis(after_ms)),
+            what: InputEvent::Dial {
+                control: 0,
+                delta_counts: 1,
+            },
+        };
+        // The step is at seven milliseconds.
+        bench.rig.now = now.after(std::time::Duration::from_millis(7));
+        bench.rig.hear(place, &event, source);
+        seen.push((bench.rig.wiring.machine().secs() - now.since(bench.rig.began).as_secs_f64()) * 1e3);
+    }
+    let expected = [2.0, 5.0, 5.0, 7.0];
+    let near = seen
+        .iter()
+        .zip(expected)
+        .all(|(seen, wanted)| (seen - wanted).abs() < 1e-6);
+    assert!(near, "neither back nor beyond the step: {seen:?}");
 }
 
 #[test]
