@@ -75,7 +75,7 @@ mod tests {
                 "SEND 'x' TO <3>NANO_LABEL; CONNECT NANO_PAGE2<1>:<2>PUPPET.elbow;",
                 0,
             ),
-            ("CONNECT DAILS<3>:<1>DLABEL1;", 1),
+            ("CONNECT DIAL<3>:<1>DLABEL1;", 1),
             ("CONNECT nano<3>:<1>DLABEL1;", 1),
             ("CONNECT NANO<3>:<3>PUPPET.elbow;", 1),
             ("LONGNAME := F:NOP; CONNECT LONGNAME<1>:<1>DLABEL1;", 0),
