@@ -7,7 +7,7 @@ use std::time::Duration;
 use bench::SimPorts;
 use bench::world::Equipment;
 use rig::document::{self, Show};
-use rig::{InputSpec, Live, Pace, Profiles, PuppetSpec, Rig, RigOptions, Snapshot, WithBench};
+use rig::{InputSpec, Live, Pace, Profiles, PuppetSpec, Rig, RigOptions, Snapshot, SystemPorts, WithBench};
 
 use crate::console::Console;
 use crate::failure::Failure;
@@ -77,6 +77,12 @@ impl LiveSetup {
                 spec.config.heartbeat_max = self.heartbeat;
                 spec
             });
+        let system = SystemPorts::knowing(
+            Arc::clone(&clock),
+            Arc::clone(&self.profiles),
+            rig::shipped::user_folder().as_deref(),
+        );
+        let system = system.watching().map_err(|e| refused(&e))?;
         let mut inputs = self.equipment.inputs();
         inputs.extend(self.inputs);
         let options = RigOptions {
@@ -87,7 +93,7 @@ impl LiveSetup {
             puppet,
             recorder: None,
         };
-        let ports = Box::new(WithBench::new(Box::new(SimPorts::new(stand))));
+        let ports = Box::new(WithBench::beside(Box::new(SimPorts::new(stand)), system));
         let rig = Rig::new(Arc::clone(&clock), ports, options).map_err(|e| refused(&e))?;
         Live::start(rig, clock, seen).map_err(|e| refused(&e))
     }

@@ -1,5 +1,9 @@
 //! The input devices of the rig: opened by address, polled in the order of their names, looked for again when
-//! they are gone.
+//! they are gone; and what is plugged in while it runs.
+
+mod plugging;
+
+use plugging::{TRY_AGAIN_SOON, Taken};
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -60,6 +64,9 @@ pub(crate) fn known_profiles(profiles: &Profiles) -> String {
 pub(crate) struct Inputs {
     seats: Vec<Seat>,
     heard: Vec<Stamped<InputEvent>>,
+    profiles: Arc<Profiles>,
+    /// When what is plugged in is looked at again.
+    list_at: Instant,
 }
 
 /// Something a device said.
@@ -74,11 +81,14 @@ pub(crate) struct Heard {
 struct Seat {
     spec: InputSpec,
     make: Make,
-    baud: u32,
     counts_per_turn: f64,
     dials: u16,
     device: Option<Device>,
     profile: Arc<InputProfile>,
+    /// How it came, where nobody named it.
+    taken: Option<Taken>,
+    /// Whether its line is open.
+    open: bool,
     health: DeviceHealth,
     events: u64,
     look_at: Instant,
@@ -98,7 +108,7 @@ pub(crate) enum Change {
 }
 
 impl Inputs {
-    pub(crate) fn new(mut specs: Vec<InputSpec>, profiles: &Profiles) -> Result<Self, InputError> {
+    pub(crate) fn new(mut specs: Vec<InputSpec>, profiles: &Arc<Profiles>) -> Result<Self, InputError> {
         specs.sort_by(|a, b| a.name.cmp(&b.name));
         if let Some(pair) = specs.windows(2).find(|pair| pair[0].name == pair[1].name) {
             return Err(InputError::Twice {
@@ -112,6 +122,8 @@ impl Inputs {
         Ok(Self {
             seats,
             heard: Vec::new(),
+            profiles: Arc::clone(profiles),
+            list_at: Instant::ZERO,
         })
     }
 
@@ -124,6 +136,7 @@ impl Inputs {
         heard: &mut Vec<Heard>,
         noticed: &mut dyn FnMut(Change),
     ) {
+        self.plug(now, ports, noticed);
         for (seat, it) in self.seats.iter_mut().enumerate() {
             self.heard.clear();
             it.poll(now, ports, &mut self.heard, noticed);
@@ -186,7 +199,7 @@ impl Seat {
             profile: spec.profile.clone(),
             known: known_profiles(profiles),
         })?;
-        let (baud, counts_per_turn) = (profile.baud(), profile.counts_per_turn());
+        let counts_per_turn = profile.counts_per_turn();
         let dials = profile.count(ControlClass::Dial);
         let profile = Arc::new(profile.clone());
         let own = Arc::clone(&profile);
@@ -194,10 +207,11 @@ impl Seat {
         Ok(Self {
             spec,
             make,
-            baud,
             counts_per_turn,
             dials,
             device: None,
+            taken: None,
+            open: false,
             health: DeviceHealth::Lost,
             events: 0,
             look_at: Instant::ZERO,
@@ -212,17 +226,12 @@ impl Seat {
         heard: &mut Vec<Stamped<InputEvent>>,
         noticed: &mut dyn FnMut(Change),
     ) {
-        if self.health == DeviceHealth::Lost && now >= self.look_at {
-            self.look_at = now.after(LOOK_AGAIN);
-            match ports.open(&self.spec.address, self.baud) {
-                Ok(line) => self.take(line),
-                Err(error) => noticed(Change::Absent(self.spec.name.clone(), error.to_string())),
-            }
+        if self.may_be_opened() && now >= self.look_at {
+            self.look(now, ports, noticed);
         }
-        let Some(device) = &mut self.device else { return };
-        if self.health == DeviceHealth::Lost {
+        let Some(device) = self.device.as_mut().filter(|_| self.open) else {
             return;
-        }
+        };
         let health = match device.poll(now, heard) {
             Health::Present => DeviceHealth::Present,
             Health::Silent { .. } => DeviceHealth::Starting,
@@ -235,6 +244,7 @@ impl Seat {
                     let why = device.lost().map(TransportError::to_string).unwrap_or_default();
                     noticed(Change::Gone(self.spec.name.clone(), why));
                     self.look_at = now.after(LOOK_AGAIN);
+                    self.open = false;
                 }
                 _ => {}
             }
@@ -242,8 +252,38 @@ impl Seat {
         }
     }
 
+    /// Not open, and where it was taken by itself it is there and grants the right.
+    fn may_be_opened(&self) -> bool {
+        let there = |taken: &Taken| taken.there && taken.rule.is_none();
+        !self.open && self.taken.as_ref().is_none_or(there)
+    }
+
+    /// Tries to open it. What keeps it from being opened is how it is.
+    fn look(&mut self, now: Instant, ports: &mut dyn Ports, noticed: &mut dyn FnMut(Change)) {
+        let settling = self.taken.as_ref().is_some_and(|taken| taken.settling(now));
+        self.look_at = now.after(if settling { TRY_AGAIN_SOON } else { LOOK_AGAIN });
+        let error = match ports.open_input(&self.spec.address, self.profile.line.as_ref()) {
+            Ok(line) => return self.take(line),
+            Err(error) => error,
+        };
+        if settling {
+            return;
+        }
+        self.health = match &error {
+            TransportError::Forbidden { hint, .. } => DeviceHealth::Forbidden {
+                rule: (*hint).to_owned(),
+            },
+            TransportError::Busy { .. } => DeviceHealth::Held {
+                driver: "another program".to_owned(),
+            },
+            _ => DeviceHealth::Lost,
+        };
+        noticed(Change::Absent(self.spec.name.clone(), error.to_string()));
+    }
+
     fn take(&mut self, line: Box<dyn Transport>) {
         self.health = DeviceHealth::Starting;
+        self.open = true;
         match &mut self.device {
             Some(device) => device.reconnect(line),
             // The format was checked when the profile was read, so a device can be made; if a user's profile
@@ -253,6 +293,7 @@ impl Seat {
                 Err(error) => {
                     tracing::error!("{error}");
                     self.health = DeviceHealth::Lost;
+                    self.open = false;
                 }
             },
         }
@@ -274,7 +315,12 @@ impl Seat {
             health: self.health.clone(),
             events: self.events,
             rejected: counters.unknown + counters.rejected,
+            dropped: self.device.as_ref().map_or(0, Device::dropped),
+            slot: self.taken.as_ref().map_or(1, |taken| taken.slot),
             ..DeviceView::default()
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

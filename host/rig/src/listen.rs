@@ -66,7 +66,7 @@ impl Listener {
             profile: profile.to_owned(),
             known: known_profiles(profiles),
         })?;
-        let device = Device::of_profile(address, known, ports.open(address, known.baud())?)?;
+        let device = Device::of_profile(address, known, ports.open_input(address, known.line.as_ref())?)?;
         let began = clock.now();
         Ok(Self {
             device,

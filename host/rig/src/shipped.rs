@@ -122,13 +122,18 @@ pub fn figure_network() -> NetworkFile {
 
 /// Where users keep profiles of their own: `$XDG_CONFIG_HOME/dialrig/profiles`, else `~/.config/dialrig/profiles`.
 pub fn user_profiles_folder() -> Option<PathBuf> {
+    Some(user_folder()?.join("profiles"))
+}
+
+/// What belongs to the user: `$XDG_CONFIG_HOME/dialrig`, else `~/.config/dialrig`.
+pub fn user_folder() -> Option<PathBuf> {
     let set = |name: &str| {
         std::env::var_os(name)
             .filter(|value| !value.is_empty())
             .map(PathBuf::from)
     };
     let config = set("XDG_CONFIG_HOME").or_else(|| set("HOME").map(|home| home.join(".config")))?;
-    Some(config.join("dialrig").join("profiles"))
+    Some(config.join("dialrig"))
 }
 
 /// The shipped profiles and those of `user`, which win. A folder that is not there is no error.

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use bench::SimPorts;
 use bench::world::Equipment;
-use rig::WithBench;
+use rig::{SystemPorts, WithBench};
 use rig::listen::{Heard, InputEvent, Listener};
 
 use crate::console::Console;
@@ -40,7 +40,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let stand = Equipment::default()
         .stand(std::sync::Arc::clone(&clock), &profiles)
         .map_err(|error| Failure::refused(error.to_string()))?;
-    let mut ports = WithBench::new(Box::new(SimPorts::new(stand)));
+    let system = SystemPorts::knowing(Arc::clone(&clock), Arc::clone(&profiles), None);
+    let mut ports = WithBench::beside(Box::new(SimPorts::new(stand)), system);
     let mut listener = Listener::open(&mut ports, &args.device, &args.profile, &profiles, clock)
         .map_err(|error| Failure::refused(error.to_string()))?;
     let interrupt = Interrupt::listen();

@@ -276,8 +276,7 @@ impl Rig {
             }
             Command::PinDevice { device, slot } => {
                 self.place_of(device)?;
-                let address = self.inputs.address(device).unwrap_or(device);
-                self.ports.pin(address, *slot)
+                self.inputs.pin(device, *slot, self.ports.as_mut())
             }
             _ => Ok(()),
         }

@@ -1,0 +1,208 @@
+//! Taking what is plugged in: known devices get a seat of their own without being asked for, and keep it while they
+//! are away.
+
+use std::time::Duration;
+
+use device::clock::Instant;
+
+use super::{Change, InputSpec, Inputs, Seat};
+use crate::controls::view::DeviceHealth;
+use crate::ports::{Found, Plug, Ports};
+
+/// Between two listings. With the lookout's own pause a device is taken within a second.
+const LIST_AGAIN: Duration = Duration::from_millis(400);
+/// So long a node's rights may take to be set after the node is there; before that nobody is told of them.
+const SETTLES_IN: Duration = Duration::from_secs(2);
+/// Between two attempts to open in that time.
+pub(super) const TRY_AGAIN_SOON: Duration = Duration::from_millis(250);
+
+/// How a seat came to be without anybody naming it.
+#[derive(Clone, Debug)]
+pub(super) struct Taken {
+    /// Key of its profile, and which of several equal ones.
+    pub(super) profile: String,
+    pub(super) slot: u16,
+    /// When it was last plugged in.
+    pub(super) since: Instant,
+    /// Whether it was there at the latest listing.
+    pub(super) there: bool,
+    /// What has to be done before it may be opened.
+    pub(super) rule: Option<String>,
+}
+
+impl Taken {
+    /// Whether its rights may still be on their way.
+    pub(super) fn settling(&self, now: Instant) -> bool {
+        now.since(self.since) < SETTLES_IN
+    }
+
+    fn is(&self, profile: &str, plug: &Plug) -> bool {
+        self.profile == profile && self.slot == plug.slot
+    }
+}
+
+impl Inputs {
+    /// Looks at what is plugged in, every now and then.
+    pub(super) fn plug(&mut self, now: Instant, ports: &mut dyn Ports, noticed: &mut dyn FnMut(Change)) {
+        if now < self.list_at {
+            return;
+        }
+        self.list_at = now.after(LIST_AGAIN);
+        let found = ports.list();
+        for seat in &mut self.seats {
+            let address = &seat.spec.address;
+            let gone = || !found.iter().any(|f| f.address == *address && f.plug.is_some());
+            if let Some(taken) = &mut seat.taken {
+                taken.there &= !gone();
+            }
+        }
+        for one in &found {
+            let known = one
+                .plug
+                .as_ref()
+                .and_then(|plug| Some((plug, plug.profile.as_deref()?)));
+            if let Some((plug, profile)) = known {
+                self.take_in(one, plug, profile, now, noticed);
+            }
+        }
+    }
+
+    fn take_in(
+        &mut self,
+        found: &Found,
+        plug: &Plug,
+        profile: &str,
+        now: Instant,
+        noticed: &mut dyn FnMut(Change),
+    ) {
+        let named = |seat: &Seat| seat.taken.is_none() && seat.spec.address == found.address;
+        if self.seats.iter().any(named) {
+            // Whoever named it knows what he wants of it.
+            return;
+        }
+        let is_its = |seat: &Seat| seat.taken.as_ref().is_some_and(|taken| taken.is(profile, plug));
+        let place = match self.seats.iter().position(is_its) {
+            Some(place) => place,
+            None => {
+                let Some(place) = self.new_seat(found, plug, profile, now) else {
+                    return;
+                };
+                if let Some(held) = &found.held {
+                    let name = self.seats[place].spec.name.clone();
+                    noticed(Change::Absent(name, held.remedy.clone()));
+                }
+                place
+            }
+        };
+        let Some(seat) = self.seats.get_mut(place) else {
+            return;
+        };
+        if seat.open {
+            return;
+        }
+        seat.come_back(found, now);
+        let Some(taken) = &seat.taken else { return };
+        if let (Some(rule), false) = (&taken.rule, taken.settling(now)) {
+            let health = DeviceHealth::Forbidden { rule: rule.clone() };
+            if seat.health != health {
+                noticed(Change::Absent(seat.spec.name.clone(), rule.clone()));
+                seat.health = health;
+            }
+        }
+    }
+
+    /// A seat for a device that was never here; its place. None where its profile is not there.
+    fn new_seat(&mut self, found: &Found, plug: &Plug, profile: &str, now: Instant) -> Option<usize> {
+        let spec = InputSpec {
+            name: self.free_name(profile, plug.slot),
+            profile: profile.to_owned(),
+            address: found.address.clone(),
+        };
+        let mut seat = Seat::new(spec, &self.profiles).ok()?;
+        seat.taken = Some(Taken {
+            profile: profile.to_owned(),
+            slot: plug.slot,
+            since: now,
+            there: false,
+            rule: None,
+        });
+        // In the order of their names, as those that were named are.
+        let place = self
+            .seats
+            .partition_point(|other| other.spec.name < seat.spec.name);
+        self.seats.insert(place, seat);
+        Some(place)
+    }
+
+    /// The profile's key; the second of its kind has a 2 behind it, and so on.
+    fn free_name(&self, profile: &str, slot: u16) -> String {
+        let free = |name: &String| self.seats.iter().all(|seat| seat.spec.name != *name);
+        let own = if slot < 2 {
+            profile.to_owned()
+        } else {
+            format!("{profile}{slot}")
+        };
+        let mut others = (2..=u16::MAX).map(|n| format!("{profile}-{n}"));
+        if free(&own) {
+            own
+        } else {
+            others.find(free).unwrap_or(own)
+        }
+    }
+
+    /// Keeps a device's place among equal ones. The device that had that place changes with it.
+    pub(crate) fn pin(&mut self, name: &str, slot: Option<u16>, ports: &mut dyn Ports) -> Result<(), String> {
+        let seat = self.seats.iter().find(|seat| seat.spec.name == name);
+        let seat = seat.ok_or_else(|| format!("there is no input device {name}"))?;
+        let Some(taken) = seat.taken.clone() else {
+            // An address that was given is the place.
+            return Err(format!("{name} is kept at {} already", seat.spec.address));
+        };
+        ports.pin(&seat.spec.address, slot)?;
+        let Some(slot) = slot.filter(|slot| *slot != taken.slot) else {
+            return Ok(());
+        };
+        for seat in &mut self.seats {
+            let same = |taken: &Taken, with: u16| taken.slot == with;
+            let concerns = seat.taken.as_ref().is_some_and(|other| {
+                other.profile == taken.profile && (same(other, slot) || same(other, taken.slot))
+            });
+            if concerns {
+                // The next listing says which of them is where now.
+                seat.close();
+            }
+        }
+        self.list_at = Instant::ZERO;
+        Ok(())
+    }
+}
+
+impl Seat {
+    /// It is there (again), perhaps at another address, perhaps not to be opened yet.
+    fn come_back(&mut self, found: &Found, now: Instant) {
+        let moved = self.spec.address != found.address;
+        let Some(taken) = &mut self.taken else { return };
+        if moved || !taken.there {
+            self.spec.address.clone_from(&found.address);
+            taken.since = now;
+            taken.there = true;
+            self.look_at = now;
+        }
+        let rule = found.allowed.as_ref().err().cloned();
+        if rule.is_none() && taken.rule.is_some() {
+            self.look_at = now;
+        }
+        taken.rule = rule;
+    }
+
+    /// Lets go of the line.
+    fn close(&mut self) {
+        self.device = None;
+        self.open = false;
+        self.health = DeviceHealth::Lost;
+        self.spec.address.clear();
+        if let Some(taken) = &mut self.taken {
+            taken.there = false;
+        }
+    }
+}
