@@ -1,11 +1,12 @@
 //! `dialrig monitor`: decoded events of one input device, as they come.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use bench::SimPorts;
 use bench::world::Equipment;
-use rig::{SystemPorts, WithBench};
 use rig::listen::{Heard, InputEvent, Listener};
+use rig::{SystemPorts, WithBench};
 
 use crate::console::Console;
 use crate::event_lines::EventLines;
@@ -38,7 +39,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let profiles = setup::profiles()?;
     let clock = rig::real_time();
     let stand = Equipment::default()
-        .stand(std::sync::Arc::clone(&clock), &profiles)
+        .stand(Arc::clone(&clock), &profiles)
         .map_err(|error| Failure::refused(error.to_string()))?;
     let system = SystemPorts::knowing(Arc::clone(&clock), Arc::clone(&profiles), None);
     let mut ports = WithBench::beside(Box::new(SimPorts::new(stand)), system);
