@@ -81,19 +81,14 @@ impl Inputs {
             return;
         }
         let is_its = |seat: &Seat| seat.taken.as_ref().is_some_and(|taken| taken.is(profile, plug));
-        let place = match self.seats.iter().position(is_its) {
-            Some(place) => place,
-            None => {
-                let Some(place) = self.new_seat(found, plug, profile, now) else {
-                    return;
-                };
-                if let Some(held) = &found.held {
-                    let name = self.seats[place].spec.name.clone();
-                    noticed(Change::Absent(name, held.remedy.clone()));
-                }
-                place
-            }
+        let its = self.seats.iter().position(is_its);
+        let Some(place) = its.or_else(|| self.new_seat(found, plug, profile, now)) else {
+            return;
         };
+        if let (None, Some(held)) = (its, &found.held) {
+            let name = self.seats[place].spec.name.clone();
+            noticed(Change::Absent(name, held.remedy.clone()));
+        }
         let Some(seat) = self.seats.get_mut(place) else {
             return;
         };

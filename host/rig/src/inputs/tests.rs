@@ -76,7 +76,7 @@ impl Desk {
             let said = &mut self.said;
             self.inputs
                 .poll(self.now, &mut self.sockets, &mut self.heard, &mut |change| {
-                    said.push(change)
+                    said.push(change);
                 });
         }
     }
