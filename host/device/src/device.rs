@@ -5,6 +5,7 @@ mod steps;
 use steps::Steps;
 
 use crate::clock::{Clock, Instant};
+use crate::codec::hid::{self, HidCodec};
 use crate::codec::{self, Codec, Counters, Feedback, InputEvent, Stamped, Stand, Surface, UnknownFormat};
 use crate::transport::{Transport, TransportError};
 use device_profiles::InputProfile;
@@ -87,6 +88,21 @@ impl Device {
         let boot_wait_ms = profile.line.map_or(0, |line| line.boot_wait_ms);
         device.boot_wait = Duration::from_millis(boot_wait_ms.into());
         Ok(device)
+    }
+
+    /// A device that no profile knows, by its own report descriptor, and what it has, as a profile would say it. An error
+    /// in words.
+    pub fn generic(
+        name: impl Into<String>,
+        mut transport: Box<dyn Transport>,
+    ) -> Result<(Self, InputProfile), String> {
+        let descriptor = transport.report_descriptor().map_err(|error| error.to_string())?;
+        let codec = HidCodec::generic(&descriptor).map_err(|error| error.to_string())?;
+        if !codec.tells_anything() {
+            return Err("its report descriptor tells of nothing that a hand does".to_owned());
+        }
+        let profile = hid::describe(&descriptor).map_err(|error| error.to_string())?;
+        Ok((Self::new(name, "", transport, Box::new(codec)), profile))
     }
 
     /// Takes what has arrived, goes on with the conversation, and appends the events. Never waits.
@@ -248,5 +264,7 @@ impl Device {
     }
 }
 
+#[cfg(test)]
+mod handshake_tests;
 #[cfg(test)]
 mod tests;

@@ -5,13 +5,14 @@ mod plugging;
 
 use plugging::{TRY_AGAIN_SOON, Taken};
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
 
 use device::clock::Instant;
 use device::codec::{Feedback, InputEvent, Stamped};
 use device::transport::{Transport, TransportError};
-use device::{Device, Health, UnknownFormat};
+use device::{Device, Health};
 use device_profiles::{ControlClass, InputProfile, Profiles};
 
 use crate::controls::view::{DeviceHealth, DeviceView};
@@ -67,6 +68,8 @@ pub(crate) struct Inputs {
     profiles: Arc<Profiles>,
     /// When what is plugged in is looked at again.
     list_at: Instant,
+    /// Addresses of devices whose own description says nothing.
+    refused: BTreeSet<String>,
 }
 
 /// Something a device said.
@@ -94,7 +97,8 @@ struct Seat {
     look_at: Instant,
 }
 
-type Make = Box<dyn Fn(Box<dyn Transport>) -> Result<Device, UnknownFormat> + Send>;
+/// A device out of its line; an error in words.
+type Make = Box<dyn Fn(Box<dyn Transport>) -> Result<Device, String> + Send>;
 
 /// What became of a device during a poll, for the person at the rig.
 #[derive(Debug, PartialEq, Eq)]
@@ -124,6 +128,7 @@ impl Inputs {
             heard: Vec::new(),
             profiles: Arc::clone(profiles),
             list_at: Instant::ZERO,
+            refused: BTreeSet::new(),
         })
     }
 
@@ -199,16 +204,34 @@ impl Seat {
             profile: spec.profile.clone(),
             known: known_profiles(profiles),
         })?;
-        let counts_per_turn = profile.counts_per_turn();
-        let dials = profile.count(ControlClass::Dial);
         let profile = Arc::new(profile.clone());
         let own = Arc::clone(&profile);
-        let make: Make = Box::new(move |line| Device::of_profile(name.clone(), &own, line));
+        let make: Make = Box::new(move |line| {
+            Device::of_profile(name.clone(), &own, line).map_err(|error| error.to_string())
+        });
+        Ok(Self::with(spec, profile, make))
+    }
+
+    /// For a device that says itself what it is; an error in words.
+    fn described(spec: InputSpec, line: Box<dyn Transport>) -> Result<Self, String> {
+        let name = spec.name.clone();
+        let (device, mut profile) = Device::generic(name.clone(), line)?;
+        profile.key.clone_from(&spec.profile);
+        let make: Make = Box::new(move |line| Device::generic(name.clone(), line).map(|(device, _)| device));
         Ok(Self {
+            device: Some(device),
+            open: true,
+            health: DeviceHealth::Starting,
+            ..Self::with(spec, Arc::new(profile), make)
+        })
+    }
+
+    fn with(spec: InputSpec, profile: Arc<InputProfile>, make: Make) -> Self {
+        Self {
             spec,
             make,
-            counts_per_turn,
-            dials,
+            counts_per_turn: profile.counts_per_turn(),
+            dials: profile.count(ControlClass::Dial),
             device: None,
             taken: None,
             open: false,
@@ -216,7 +239,7 @@ impl Seat {
             events: 0,
             look_at: Instant::ZERO,
             profile,
-        })
+        }
     }
 
     fn poll(

@@ -38,6 +38,8 @@ pub struct Held {
 /// A device that is known and told apart from its equals.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Plug {
+    /// What it is called unless it is called otherwise: the profile's key, `hid-VENDOR-PRODUCT` without one.
+    pub name: String,
     /// Key of its profile; none where only its own description says what it is.
     pub profile: Option<String>,
     /// Which of several equal ones it is, from 1.

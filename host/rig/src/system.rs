@@ -169,7 +169,9 @@ impl Known {
         let plug = slots.get(&one.found.address).map(|&slot| {
             let profile = one.matches.first().cloned();
             let baud = profile.as_deref().and_then(|key| self.profiles.input(key).ok());
+            let by_itself = || format!("hid-{}", one.found.id().unwrap_or_default().replace(':', "-"));
             Plug {
+                name: profile.clone().unwrap_or_else(by_itself),
                 slot,
                 baud: baud.map_or(0, InputProfile::baud),
                 profile,

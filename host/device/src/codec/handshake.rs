@@ -62,8 +62,13 @@ enum Stage {
 impl Handshake {
     /// In front of `inner`, with the profile's steps. A profile without any needs no handshake.
     pub fn new(profile: &InputProfile, inner: Box<dyn Codec>) -> Self {
+        Self::of_steps(profile.init.clone(), inner)
+    }
+
+    /// In front of `inner`, with these steps.
+    pub fn of_steps(steps: Vec<InitStep>, inner: Box<dyn Codec>) -> Self {
         Self {
-            steps: profile.init.clone(),
+            steps,
             inner,
             stage: Stage::Idle,
             outline: None,
@@ -323,6 +328,3 @@ impl Codec for Handshake {
         self.inner.identity().or(self.text.as_deref())
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -19,8 +19,8 @@ pub(super) const TRY_AGAIN_SOON: Duration = Duration::from_millis(250);
 /// How a seat came to be without anybody naming it.
 #[derive(Clone, Debug)]
 pub(super) struct Taken {
-    /// Key of its profile, and which of several equal ones.
-    pub(super) profile: String,
+    /// What such devices are called, and which of several equal ones it is.
+    pub(super) kind: String,
     pub(super) slot: u16,
     /// When it was last plugged in.
     pub(super) since: Instant,
@@ -36,8 +36,8 @@ impl Taken {
         now.since(self.since) < SETTLES_IN
     }
 
-    fn is(&self, profile: &str, plug: &Plug) -> bool {
-        self.profile == profile && self.slot == plug.slot
+    fn is(&self, plug: &Plug) -> bool {
+        self.kind == plug.name && self.slot == plug.slot
     }
 }
 
@@ -56,13 +56,11 @@ impl Inputs {
                 taken.there &= !gone();
             }
         }
+        self.refused
+            .retain(|address| found.iter().any(|f| f.address == *address));
         for one in &found {
-            let known = one
-                .plug
-                .as_ref()
-                .and_then(|plug| Some((plug, plug.profile.as_deref()?)));
-            if let Some((plug, profile)) = known {
-                self.take_in(one, plug, profile, now, noticed);
+            if let Some(plug) = &one.plug {
+                self.take_in(one, plug, now, ports, noticed);
             }
         }
     }
@@ -71,8 +69,8 @@ impl Inputs {
         &mut self,
         found: &Found,
         plug: &Plug,
-        profile: &str,
         now: Instant,
+        ports: &mut dyn Ports,
         noticed: &mut dyn FnMut(Change),
     ) {
         let named = |seat: &Seat| seat.taken.is_none() && seat.spec.address == found.address;
@@ -80,9 +78,9 @@ impl Inputs {
             // Whoever named it knows what he wants of it.
             return;
         }
-        let is_its = |seat: &Seat| seat.taken.as_ref().is_some_and(|taken| taken.is(profile, plug));
+        let is_its = |seat: &Seat| seat.taken.as_ref().is_some_and(|taken| taken.is(plug));
         let its = self.seats.iter().position(is_its);
-        let Some(place) = its.or_else(|| self.new_seat(found, plug, profile, now)) else {
+        let Some(place) = its.or_else(|| self.new_seat(found, plug, now, ports)) else {
             return;
         };
         if let (None, Some(held)) = (its, &found.held) {
@@ -106,19 +104,24 @@ impl Inputs {
         }
     }
 
-    /// A seat for a device that was never here; its place. None where its profile is not there.
-    fn new_seat(&mut self, found: &Found, plug: &Plug, profile: &str, now: Instant) -> Option<usize> {
+    /// A seat for a device that was never here; its place. None where nothing says what it is.
+    fn new_seat(&mut self, found: &Found, plug: &Plug, now: Instant, ports: &mut dyn Ports) -> Option<usize> {
         let spec = InputSpec {
-            name: self.free_name(profile, plug.slot),
-            profile: profile.to_owned(),
+            name: self.free_name(&plug.name, plug.slot),
+            profile: plug.name.clone(),
             address: found.address.clone(),
         };
-        let mut seat = Seat::new(spec, &self.profiles).ok()?;
+        let mut seat = if plug.profile.is_some() {
+            Seat::new(spec, &self.profiles).ok()?
+        } else {
+            self.described(spec, found, ports)?
+        };
         seat.taken = Some(Taken {
-            profile: profile.to_owned(),
+            kind: plug.name.clone(),
             slot: plug.slot,
             since: now,
-            there: false,
+            // Of one that had to be opened to know it, nothing more is to be found out.
+            there: seat.open,
             rule: None,
         });
         // In the order of their names, as those that were named are.
@@ -127,6 +130,24 @@ impl Inputs {
             .partition_point(|other| other.spec.name < seat.spec.name);
         self.seats.insert(place, seat);
         Some(place)
+    }
+
+    /// A seat for a device that only its own description says something of, open already. Each is tried once a plugging.
+    fn described(&mut self, spec: InputSpec, found: &Found, ports: &mut dyn Ports) -> Option<Seat> {
+        if found.allowed.is_err() || self.refused.contains(&found.address) {
+            return None;
+        }
+        let line = ports
+            .open_input(&found.address, None)
+            .map_err(|error| error.to_string());
+        match line.and_then(|line| Seat::described(spec, line)) {
+            Ok(seat) => Some(seat),
+            Err(why) => {
+                tracing::debug!("{}: {why}", found.address);
+                self.refused.insert(found.address.clone());
+                None
+            }
+        }
     }
 
     /// The profile's key; the second of its kind has a 2 behind it, and so on.
@@ -160,7 +181,7 @@ impl Inputs {
         for seat in &mut self.seats {
             let same = |taken: &Taken, with: u16| taken.slot == with;
             let concerns = seat.taken.as_ref().is_some_and(|other| {
-                other.profile == taken.profile && (same(other, slot) || same(other, taken.slot))
+                other.kind == taken.kind && (same(other, slot) || same(other, taken.slot))
             });
             if concerns {
                 // The next listing says which of them is where now.

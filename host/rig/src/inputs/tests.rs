@@ -1,12 +1,12 @@
 use super::*;
 use crate::ports::{Found, Plug};
-use device::transport::memory::{self, MemoryTransport};
+use device::transport::memory::{self, MemoryTransport, reports};
 
 /// Ports whose plugs a test pulls.
 #[derive(Default)]
 struct Sockets {
     found: Vec<Found>,
-    lines: Vec<(String, MemoryTransport)>,
+    lines: Vec<(String, Box<dyn Transport>)>,
     opened: Vec<String>,
 }
 
@@ -14,11 +14,12 @@ impl Sockets {
     /// Plugs a dial box in; its far end.
     fn plug(&mut self, address: &str, slot: u16) -> MemoryTransport {
         let (host, far) = memory::pair_named(address);
-        self.lines.push((address.to_owned(), host));
+        self.lines.push((address.to_owned(), Box::new(host)));
         self.found.push(Found {
             address: address.to_owned(),
             matches: vec!["sgi-dialbox".to_owned()],
             plug: Some(Plug {
+                name: "sgi-dialbox".to_owned(),
                 profile: Some("sgi-dialbox".to_owned()),
                 slot,
                 baud: 9600,
@@ -42,7 +43,7 @@ impl Ports for Sockets {
         self.opened.push(address.to_owned());
         let place = self.lines.iter().position(|(at, _)| at == address);
         match place {
-            Some(place) => Ok(Box::new(self.lines.remove(place).1)),
+            Some(place) => Ok(self.lines.remove(place).1),
             None => Err(TransportError::NotFound {
                 address: address.to_owned(),
             }),
@@ -203,4 +204,42 @@ fn pulled_and_put_back_a_hundred_times_nothing_is_lost_or_doubled() {
         .count();
     assert_eq!(came, gone, "every coming has its going");
     assert!(came > 90, "{came}");
+}
+
+#[test]
+fn what_describes_itself_is_taken_without_a_profile_and_what_says_nothing_is_not() {
+    let mut desk = Desk::new(Vec::new());
+    let mut plug = |address: &str, descriptor: &[u8]| {
+        let (host, far) = reports::pair(address);
+        far.set_descriptor(descriptor);
+        desk.sockets.lines.push((address.to_owned(), Box::new(host)));
+        desk.sockets.found.push(Found {
+            address: address.to_owned(),
+            plug: Some(Plug {
+                name: "hid-1209-0001".to_owned(),
+                profile: None,
+                slot: desk.sockets.found.len() as u16 + 1,
+                baud: 0,
+            }),
+            ..Found::default()
+        });
+        far
+    };
+    // A multi-axis controller with one axis of eight bits; and a vendor's page of which nobody knows anything.
+    let axis = [
+        0x05, 1, 0x09, 8, 0xA1, 1, 0x09, 0x30, 0x15, 0, 0x26, 0xFF, 0, 0x75, 8, 0x95, 1, 0x81, 2, 0xC0,
+    ];
+    let vendor = [
+        0x06, 0, 0xFF, 0x09, 1, 0xA1, 1, 0x09, 1, 0x15, 0, 0x26, 0xFF, 0, 0x75, 8, 0x95, 1, 0x81, 2, 0xC0,
+    ];
+    let far = plug("/dev/hidraw0", &axis);
+    let _other = plug("/dev/hidraw1", &vendor);
+    desk.run(1000);
+    assert_eq!(desk.told(), [("hid-1209-0001".to_owned(), DeviceHealth::Present)]);
+    assert_eq!(desk.sockets.opened, ["/dev/hidraw0", "/dev/hidraw1"], "each once");
+    far.report(&[200]);
+    desk.run(20);
+    let said = desk.heard.iter().map(|heard| &heard.event.what);
+    let moved = said.filter(|what| matches!(what, InputEvent::Axis { value: 200, .. }));
+    assert_eq!(moved.count(), 1);
 }

@@ -1,7 +1,11 @@
-use super::*;
-use crate::device::{Device, Health};
+//! Handshakes with a device at the far end of a line: every step, and unplugging inside every step.
+
+use super::{Device, Health};
+use crate::clock::Instant;
+use crate::codec::{Codec, Counters, Feedback, Handshake, InputEvent, Outgoing};
 use crate::transport::memory::reports::{self, Noticed, ReportDevice};
-use device_profiles::RangeFrom;
+use device_profiles::{HexBytes, InitStep, RangeFrom};
+use std::time::Duration;
 
 /// Says `Started` when it is begun, and a restart for every report.
 #[derive(Default)]
@@ -77,19 +81,7 @@ fn steps() -> Vec<InitStep> {
 }
 
 fn handshake(steps: Vec<InitStep>) -> Handshake {
-    Handshake {
-        steps,
-        inner: Box::new(Behind::default()),
-        stage: Stage::Idle,
-        outline: None,
-        tries: 0,
-        refused: None,
-        told: None,
-        text: None,
-        trouble: None,
-        rejected: 0,
-        unsaid: Outgoing::new(),
-    }
+    Handshake::of_steps(steps, Box::new(Behind::default()))
 }
 
 fn plug() -> (reports::ReportTransport, ReportDevice) {
@@ -106,7 +98,7 @@ fn at_ms(ms: u64) -> Instant {
 }
 
 /// Polls every millisecond until it is well, at most three seconds.
-fn run(device: &mut Device, from_ms: u64, events: &mut Vec<crate::Stamped<InputEvent>>) -> Health {
+fn run(device: &mut Device, from_ms: u64, events: &mut Vec<crate::codec::Stamped<InputEvent>>) -> Health {
     let mut health = Health::Lost;
     for ms in from_ms..from_ms + 3000 {
         health = device.poll(at_ms(ms), events);
