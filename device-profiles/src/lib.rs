@@ -21,8 +21,8 @@ pub use input::{
     Bus, ByteMatch, ByteOrder, CalComp, Control, ControlClass, ControlKind, ControlUnit, Emits, Encoding,
     FORMATS, Field, FieldName, Firmata, HexBytes, HpDials, Identify, InitAction, InitStep, InputKind,
     InputProfile, Layout, Line, Lines, Match, MidiAddress, Mm, MmFraming, Osc, Output, OutputKind, Parity,
-    Piece, Place, Quirk, RangeFrom, Repeat, Report, Reports, RingCoding, Sgi, Slots, Surface, Tool,
-    ToolProfile, Used, WacomSerial,
+    Piece, PixelCoding, Place, Quirk, RangeFrom, Repeat, Report, Reports, RingCoding, Sgi, Slots, Surface,
+    Tool, ToolProfile, Used, WacomSerial,
 };
 pub use policy::{Policy, Reaction};
 pub use profiles::{Kind, Profiles};

@@ -26,7 +26,7 @@ pub use init::{InitAction, InitStep, RangeFrom};
 pub use layout::{Layout, Reports};
 pub use line::{Line, Parity};
 pub use matching::{Bus, Identify, Match};
-pub use output::{Output, OutputKind, Place, RingCoding};
+pub use output::{Output, OutputKind, PixelCoding, Place, RingCoding};
 pub use quirk::Quirk;
 pub use report::{ByteMatch, ByteOrder, Emits, Field, FieldName, Piece, Repeat, Report, Slots, Used};
 pub use special::{CalComp, Firmata, HpDials, Lines, Mm, MmFraming, Osc, Sgi, WacomSerial};

@@ -28,6 +28,9 @@ pub struct Output {
     /// Width and height of a picture in pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<[u16; 2]>,
+    /// How a picture is sent; labels beside the same controls are then drawn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pixels: Option<PixelCoding>,
     /// The output report that shows it, its id first (0 where the device has none), with zeros at the places
     /// below; filled up with zeros to the device's length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -102,6 +105,17 @@ impl OutputKind {
             Self::Level => "level",
         }
     }
+}
+
+/// How a picture is sent: JPEG in pieces behind heads of their own.
+/// Source: abcminiuser/python-elgato-streamdeck `StreamDeckPlus.py` at 4ec7c733.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PixelCoding {
+    /// Part of the strip above the dials, one beside the other.
+    StreamDeckStrip,
+    /// A key.
+    StreamDeckKey,
 }
 
 /// How a ring's position is written.

@@ -5,6 +5,7 @@
 
 pub mod bus;
 pub mod bus_faults;
+pub mod input;
 pub mod interpolant;
 pub mod lunge;
 pub mod network;
@@ -27,13 +28,22 @@ pub struct Measure {
 }
 
 /// All measures, in the order in which they are taken.
-pub const MEASURES: [Measure; 7] = [
+pub const MEASURES: [Measure; 8] = [
     Measure {
         name: rig_step::NAME,
         about: "One dial report of the simulated box through a whole step of the rig, with the shipped network \
                 and show. ns: lower is better. limit: a bare decode of the same bytes by the codec; \
                 ratio = value / limit, so it says how many decodes a step costs: lower is better.",
         take: rig_step::take,
+    },
+    Measure {
+        name: input::NAME,
+        about: "Input devices, for every layout: ns from the bytes of a report to each of its events, allocations for an \
+                event (limit: 0), ns of a whole step of the rig that finds one report at a line; then 8000 reports a \
+                second for ten seconds: reports lost (limit: 0), bytes held more at the end than after one second; then \
+                ticks of the simulated rig from a dial's byte to the servo's packet (limit: 1). Lower is better \
+                everywhere; ratio = value / limit, where the limit is not 0.",
+        take: input::take,
     },
     Measure {
         name: interpolant::NAME,

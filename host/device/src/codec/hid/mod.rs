@@ -11,8 +11,10 @@ pub mod descriptor;
 mod generic;
 #[cfg(test)]
 mod known;
+mod pictures;
 mod plan;
 mod run;
+mod show;
 mod tool;
 
 pub use compile::PlanError;
@@ -21,8 +23,10 @@ use super::{Codec, Counters, Feedback, InputEvent, Outgoing, Surface};
 use crate::clock::Instant;
 use descriptor::{Descriptor, DescriptorError};
 use device_profiles::{FieldName, InputProfile};
+use pictures::Pictures;
 use plan::Plan;
 use run::{Outcome, Running};
+use show::Shown;
 use std::time::Duration;
 
 /// The host's side of a HID device.
@@ -32,6 +36,8 @@ pub struct HidCodec {
     running: Running,
     surface: Option<Surface>,
     pointer: bool,
+    shown: Shown,
+    pictures: Pictures,
     leave_after: Option<Duration>,
     /// When the tool was last heard of.
     heard_at: Option<Instant>,
@@ -66,6 +72,8 @@ impl HidCodec {
         let leave_after_ms = profile.tables().leave_after_ms;
         Ok(Self {
             leave_after: leave_after_ms.map(|ms| Duration::from_millis(ms.into())),
+            shown: Shown::new(profile),
+            pictures: Pictures::new(profile),
             ..Self::of(plan, surface, false)
         })
     }
@@ -85,6 +93,8 @@ impl HidCodec {
             plan,
             surface,
             pointer,
+            shown: Shown::default(),
+            pictures: Pictures::default(),
             leave_after: None,
             heard_at: None,
             state: State::Fresh,
@@ -133,9 +143,11 @@ impl Codec for HidCodec {
         }
     }
 
-    fn advance(&mut self, now: Instant, _out: &mut Outgoing, emit: &mut dyn FnMut(InputEvent)) {
+    fn advance(&mut self, now: Instant, out: &mut Outgoing, emit: &mut dyn FnMut(InputEvent)) {
         if let State::Starting { again } = self.state {
             self.state = State::Started;
+            self.shown.send_everything(out);
+            self.pictures.send_everything(out);
             emit(if again {
                 InputEvent::Restarted
             } else {
@@ -153,7 +165,11 @@ impl Codec for HidCodec {
         }
     }
 
-    fn encode(&mut self, _feedback: &Feedback, _out: &mut Outgoing) {}
+    fn encode(&mut self, feedback: &Feedback, out: &mut Outgoing) {
+        let started = self.state == State::Started;
+        self.shown.want(feedback, started, out);
+        self.pictures.want(feedback, started, out);
+    }
 
     fn let_go(&mut self, emit: &mut dyn FnMut(InputEvent)) {
         self.running.let_go(emit);
