@@ -270,13 +270,14 @@ mod tests {
                 picture: red,
             },
         );
-        let head = &reports[0][..8];
-        // The second key.
-        assert_eq!(head[..3], [2, 7, 1]);
-        let length = usize::from(u16::from_le_bytes([head[4], head[5]]));
-        let picture = image::load_from_memory(&reports[0][8..8 + length])
-            .expect("a JPEG")
-            .to_rgb8();
+        let mut jpeg = Vec::new();
+        for report in &reports {
+            // The second key.
+            assert_eq!(report[..3], [2, 7, 1]);
+            let length = usize::from(u16::from_le_bytes([report[4], report[5]]));
+            jpeg.extend(&report[8..8 + length]);
+        }
+        let picture = image::load_from_memory(&jpeg).expect("a JPEG").to_rgb8();
         assert_eq!(picture.dimensions(), (120, 120));
         assert!(picture.get_pixel(20, 60).0[0] > 200 && picture.get_pixel(100, 60).0[0] < 50);
         assert_eq!(sent(&mut deck(), &label(12, "no such")), Vec::<Vec<u8>>::new());
