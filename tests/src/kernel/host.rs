@@ -50,6 +50,19 @@ pub fn run(arguments: &[&str], as_nobody: bool) -> anyhow::Result<Said> {
     })
 }
 
+/// What a user without rights is told when the host's own code opens `address` for him.
+pub fn try_open_as_nobody(address: &str) -> anyhow::Result<String> {
+    let output = Command::new(std::env::current_exe()?)
+        .args([TRY_OPEN, address])
+        .uid(NOBODY)
+        .gid(NOBODY)
+        .output()?;
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// Argument by which this program opens a device and says what came of it.
+pub const TRY_OPEN: &str = "--try-open";
+
 /// The records of `devices --json`.
 pub fn devices(as_nobody: bool) -> anyhow::Result<Vec<Value>> {
     let said = run(&["devices", "--json"], as_nobody)?;
@@ -178,6 +191,24 @@ impl Running {
                     "waited for {what}; {} lines came, last {tail:?}; said {said:?}",
                     records.len()
                 );
+            }
+        }
+    }
+
+    /// Waits until a simulated device says that it was made to show this.
+    pub fn shown(&self, output: &str, value: i64) -> anyhow::Result<()> {
+        // The first line of a served device is no record.
+        let wanted = format!("\"output\":\"{output}\",\"value\":{value}}}");
+        let mut lines = self.out.lock();
+        loop {
+            if lines.0.iter().any(|line| line.ends_with(&wanted)) {
+                return Ok(());
+            }
+            let waited = self.out.more.wait_timeout(lines, Duration::from_secs(5));
+            let (next, timed_out) = waited.unwrap_or_else(PoisonError::into_inner);
+            lines = next;
+            if timed_out.timed_out() {
+                bail!("it was to show {output} {value}, and said {:?}", lines.0);
             }
         }
     }

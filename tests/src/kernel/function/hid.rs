@@ -19,6 +19,9 @@ const FEATURE: u8 = 3;
 pub struct Hid {
     device: Box<dyn UsbDevice>,
     waiting: Vec<firmware_sim::usb_device::Report>,
+    taken: Vec<Vec<u8>>,
+    /// Endpoints that are asked, bit n for endpoint n.
+    asked: u16,
 }
 
 impl Hid {
@@ -27,12 +30,24 @@ impl Hid {
         Self {
             device,
             waiting: Vec::new(),
+            taken: Vec::new(),
+            asked: 0,
         }
     }
 
     /// The device itself, for hands and faults.
     pub fn device(&mut self) -> &mut dyn UsbDevice {
         &mut *self.device
+    }
+
+    /// Whether somebody has it open.
+    pub fn is_open(&self) -> bool {
+        self.asked != 0
+    }
+
+    /// Every report the kernel has taken since the last call, in order.
+    pub fn taken(&mut self) -> Vec<Vec<u8>> {
+        std::mem::take(&mut self.taken)
     }
 
     fn hid_descriptor(length: usize) -> Vec<u8> {
@@ -126,17 +141,22 @@ impl Function for Hid {
             .waiting
             .iter()
             .position(|report| report.interface == interface)?;
-        Some(self.waiting.remove(at).bytes)
+        let bytes = self.waiting.remove(at).bytes;
+        self.taken.push(bytes.clone());
+        Some(bytes)
     }
 
     fn listened(&mut self, now_us: u64, endpoint: u8, on: bool) {
         if let Some(interface) = endpoint.checked_sub(1) {
+            let bit = 1 << endpoint.min(15);
+            self.asked = if on { self.asked | bit } else { self.asked & !bit };
             self.device.listen(now_us, interface, on);
         }
     }
 
     fn plugged(&mut self, now_us: u64, is_in: bool) {
         self.waiting.clear();
+        self.asked = 0;
         self.device.plug(now_us, is_in);
     }
 }

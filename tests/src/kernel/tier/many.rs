@@ -1,5 +1,195 @@
-//! Many devices, much load, and cables that do not stay in.
+//! Many devices, much load, cables that do not stay in, and users without rights.
 
-use super::Claim;
+use std::time::Duration;
 
-pub(super) const CLAIMS: &[Claim] = &[];
+use anyhow::{Context, ensure};
+use device::discovery::Access;
+use firmware_sim::hands::{Touch, Turn};
+use firmware_sim::usb_device::UsbFault;
+
+use super::open::{
+    answered, drained, find, find_one, open, opened, plugged, reports, touch, until_gone, until_open, with,
+};
+use super::{Claim, same};
+use crate::kernel::cable::Watch;
+use crate::kernel::host;
+
+pub(super) const CLAIMS: &[Claim] = &[
+    Claim {
+        name: "load: a wheel that turns through five unpluggings is heard in order, nothing twice, nothing invented",
+        show: unplug_under_load,
+    },
+    Claim {
+        name: "load: a cable that comes out inside every step of a handshake ends it, and the next one works",
+        show: unplug_in_handshake,
+    },
+    Claim {
+        name: "load: ten equal devices are ten, each with its own place, each heard by itself",
+        show: ten_equal,
+    },
+    Claim {
+        name: "load: eight thousand reports a second are taken in or counted, in bounded memory",
+        show: flood,
+    },
+    Claim {
+        name: "load: a user without rights sees the device, is refused, and is told which rule grants it",
+        show: no_rights,
+    },
+];
+
+fn turn(clicks: i32, over_us: u64) -> Touch {
+    Touch::Dial {
+        control: 0,
+        by: Turn::Counts(clicks),
+        over_us,
+    }
+}
+
+fn unplug_under_load(watch: &Watch) -> anyhow::Result<()> {
+    let cable = plugged("shuttlepro-v2", 1, watch)?;
+    let mut total = 0;
+    for _ in 0..5 {
+        let mut line = opened(watch, "shuttlepro-v2")?;
+        until_open(watch, &cable)?;
+        touch(&cable, &turn(100_000, 1_000_000_000))?;
+        let mut seen = reports(watch, &mut *line, 15)?;
+        cable.plug(false);
+        seen.extend(until_gone(watch, &mut *line)?);
+        drop(line);
+        let taken = cable.with(|hid, _| hid.taken());
+        // What the kernel took before the reader was there, or in the last moments, may be lost with the node. What came
+        // is what was sent, in its order, nothing in between left out and nothing put in.
+        let place = (0..taken.len()).find(|&from| taken[from..].starts_with(&seen));
+        let tail = place.map(|from| taken.len() - from - seen.len());
+        ensure!(
+            tail.is_some_and(|lost| lost <= 64),
+            "{} came of {} taken, found at {place:?}",
+            seen.len(),
+            taken.len()
+        );
+        total += seen.len();
+        cable.plug(true);
+    }
+    ensure!(total >= 75, "only {total} reports in five stays");
+    Ok(())
+}
+
+fn unplug_in_handshake(watch: &Watch) -> anyhow::Result<()> {
+    let cable = plugged("hs610", 1, watch)?;
+    for step in 0..3 {
+        let mut line = opened(watch, "hs610")?;
+        with(&cable, |device, now_us| {
+            device.inject(now_us, UsbFault::UnplugAfterRequests(step));
+        });
+        for index in [202, 201, 200] {
+            // Refused, gone or answered: whichever, it must come back.
+            let asked = answered(watch, || line.read_string(index));
+            drop(asked);
+        }
+        until_gone(watch, &mut *line)?;
+        with(&cable, |device, now_us| device.plug(now_us, true));
+    }
+    let mut line = opened(watch, "hs610")?;
+    until_open(watch, &cable)?;
+    answered(watch, || line.read_string(200))?;
+    touch(
+        &cable,
+        &Touch::Button {
+            control: 0,
+            down: true,
+        },
+    )?;
+    let seen = reports(watch, &mut *line, 1)?;
+    same(
+        &seen[0][..5],
+        &[8, 0xE0, 1, 1, 1][..],
+        "a key after the handshake that went through",
+    )
+}
+
+fn ten_equal(watch: &Watch) -> anyhow::Result<()> {
+    // A virtual hub has fewer ports than that: the rest come by uhid, as from another one.
+    let cables: Vec<_> = (1..=7)
+        .map(|n| plugged("shuttlepro-v2", n, watch))
+        .collect::<Result<_, _>>()?;
+    let by_uhid: Vec<_> = (0..3)
+        .map(|_| host::Running::start(&["sim", "dial-box", "--kind", "shuttlepro-v2", "--uhid"]))
+        .collect::<Result<_, _>>()?;
+    let found = find(watch, "shuttlepro-v2", 10)?;
+    let mut places: Vec<_> = found.iter().filter_map(|found| found.place.clone()).collect();
+    places.sort();
+    places.dedup();
+    ensure!(places.len() >= 7, "places of ten equal devices: {places:?}");
+    let mut lines = found.iter().map(open).collect::<Result<Vec<_>, _>>()?;
+    for cable in &cables {
+        until_open(watch, cable)?;
+    }
+    for (n, cable) in cables.iter().enumerate() {
+        touch(cable, &turn(n as i32 + 1, 0))?;
+    }
+    watch.pause(Duration::from_millis(400));
+    let mut heard = Vec::new();
+    for line in &mut lines {
+        let mut buffer = [0; 64];
+        while line.read(&mut buffer)? > 0 {
+            heard.push(buffer[1].wrapping_sub(0xFD));
+        }
+    }
+    heard.sort_unstable();
+    same(&heard, &vec![1, 2, 3, 4, 5, 6, 7], "one turn of each")?;
+    drop(by_uhid);
+    Ok(())
+}
+
+fn flood(watch: &Watch) -> anyhow::Result<()> {
+    let cable = plugged("powermate", 1, watch)?;
+    let mut line = opened(watch, "powermate")?;
+    until_open(watch, &cable)?;
+    let before_kib = resident_kib()?;
+    with(&cable, |device, now_us| {
+        device.inject(
+            now_us,
+            UsbFault::Flood {
+                hz: 8000,
+                for_us: 200_000,
+            },
+        );
+    });
+    // Nobody reads meanwhile.
+    watch.pause(Duration::from_millis(1500));
+    let came = drained(watch, &mut *line)?.len() as u64;
+    let taken = cable.with(|hid, _| hid.taken()).len() as u64;
+    ensure!(came + line.dropped() <= taken, "{came} came of {taken}");
+    ensure!(came > 64, "only {came} came of {taken}");
+    let grown_kib = resident_kib()?.saturating_sub(before_kib);
+    ensure!(grown_kib < 8192, "memory grew by {grown_kib} KiB");
+    touch(
+        &cable,
+        &Touch::Button {
+            control: 0,
+            down: true,
+        },
+    )?;
+    let seen = reports(watch, &mut *line, 1)?;
+    same(&seen[0][0], &1, "a press after the flood")
+}
+
+fn resident_kib() -> anyhow::Result<u64> {
+    let status = std::fs::read_to_string("/proc/self/status")?;
+    let line = status.lines().find(|line| line.starts_with("VmRSS:"));
+    let word = line.and_then(|line| line.split_whitespace().nth(1));
+    Ok(word.context("VmRSS")?.parse()?)
+}
+
+fn no_rights(watch: &Watch) -> anyhow::Result<()> {
+    let _cable = plugged("powermate", 1, watch)?;
+    let found = find_one(watch, "powermate")?;
+    same(&found.access, &Access::Allowed, "what root may")?;
+    let refused = host::try_open_as_nobody(&found.address)?;
+    ensure!(refused.contains("permission denied"), "{refused}");
+    ensure!(
+        refused.contains("--install-rules"),
+        "it should name the rule: {refused}"
+    );
+    Ok(())
+}

@@ -2,11 +2,15 @@
 
 mod hid;
 mod many;
+mod open;
 mod serial;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::ensure;
+use device::clock::{Clock, MonotonicClock};
+use device::discovery::Places;
 use serde_json::Value;
 
 use super::cable::Watch;
@@ -25,6 +29,19 @@ pub struct Claim {
 
 /// All of them, in the order they are shown.
 pub const CLAIMS: &[&[Claim]] = &[hid::CLAIMS, many::CLAIMS, serial::CLAIMS];
+
+/// Opens a device as the host does and says what came of it.
+pub fn try_open(address: &str) -> String {
+    let clock: Arc<dyn Clock> = Arc::new(MonotonicClock::new());
+    let address = match address.parse() {
+        Ok(address) => address,
+        Err(error) => return format!("{error}"),
+    };
+    match device::discovery::open(&Places::default(), &address, None, &clock) {
+        Ok(_) => "opened".to_owned(),
+        Err(error) => error.to_string(),
+    }
+}
 
 /// A monitor of `address`, listening.
 fn monitor(address: &str, profile: &str) -> anyhow::Result<Running> {
@@ -53,7 +70,7 @@ fn edges(records: &[Value]) -> Vec<(u64, bool)> {
         .collect()
 }
 
-fn same<T: PartialEq + std::fmt::Debug>(got: &T, want: &T, what: &str) -> anyhow::Result<()> {
+fn same<T: PartialEq + std::fmt::Debug + ?Sized>(got: &T, want: &T, what: &str) -> anyhow::Result<()> {
     ensure!(got == want, "{what}: got {got:?}, wanted {want:?}");
     Ok(())
 }
