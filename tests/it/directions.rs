@@ -19,7 +19,14 @@ const MAY_DEPEND_ON: &[(&str, &[&str])] = &[
     ("firmware-sim", &["device-profiles"]),
     (
         "bench",
-        &["rig", "device", "firmware-sim", "device-profiles", "ps300"],
+        &[
+            "rig",
+            "device",
+            "firmware-sim",
+            "device-profiles",
+            "motion",
+            "ps300",
+        ],
     ),
     ("ui", &["rig", "motion", "solid", "ps300"]),
     ("dialrig", &["rig", "bench", "ui", "motion", "solid", "ps300"]),

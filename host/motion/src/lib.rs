@@ -24,6 +24,7 @@ pub mod joint_track;
 pub mod keyframe;
 pub mod kinetics;
 pub mod retarget;
+pub mod thin;
 pub mod track;
 
 pub use chain::{Chain, ChainError, Coupling, Joint, JointIndex, JointKind, Rigid};

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 pub use crate::controls::command::{Binding, ControlCommand, LearnCommand};
+use crate::take::TakeTolerance;
 
 /// One request. Requests that cannot be met leave a [`crate::Note`] and change nothing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,8 +81,42 @@ pub enum Command {
         /// Which of several equal ones it is to be, from 1; none lets it be found by itself again.
         slot: Option<u16>,
     },
+    /// Performances kept as what the devices said.
+    Take(TakeCommand),
     /// Writes the show to its folder.
     Save,
+}
+
+/// Takes: recorded, done again through the network as it is now, thrown away.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TakeCommand {
+    /// Records from the next step on what the devices say.
+    Start {
+        /// What the take, and the clip of its keys, will be called; one of that name is replaced.
+        name: String,
+        /// The devices, by [`crate::DeviceView::name`]; all when empty.
+        #[serde(default)]
+        devices: Vec<String>,
+        /// How far the keys may be off; half a degree and two millimetres unless said.
+        #[serde(default)]
+        tolerance: Option<TakeTolerance>,
+    },
+    /// Ends it with this step. When its keys are ready, take and clip become one step of undo.
+    Stop,
+    /// Does a take again through the present network; its keys become a clip in one step of undo.
+    Rerun {
+        /// The take.
+        take: String,
+        /// The clip; one of the take's name unless said.
+        #[serde(default)]
+        clip: Option<String>,
+        /// How far the keys may be off; half a degree and two millimetres unless said.
+        #[serde(default)]
+        tolerance: Option<TakeTolerance>,
+    },
+    /// Throws a take away; clips made of it stay.
+    Delete(String),
 }
 
 /// A change of the function network. Each that changes the show is one step of undo; what was not changed

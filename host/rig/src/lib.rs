@@ -7,8 +7,10 @@
 //! *Start reading* at [`command`] and [`snapshot`] (what goes in and out), then [`Rig::step`] (the order).
 
 pub mod calibration;
+pub mod capture;
 pub mod command;
 pub mod controls;
+pub mod controls_calibration;
 pub mod decode;
 mod desk;
 pub mod doctor;
@@ -34,6 +36,7 @@ pub mod snapshot;
 mod stage;
 mod survey;
 mod system;
+pub mod take;
 pub mod telling;
 mod timeline;
 mod view;
@@ -42,7 +45,7 @@ mod wiring;
 
 pub use command::{
     Binding, Command, ControlCommand, EditCommand, KineticsMode, LearnCommand, NetworkEdit, PoseCommand,
-    PuppetCommand, PuppetPose, Side, TeachCommand, Touch, TransportCommand, ViewCommand,
+    PuppetCommand, PuppetPose, Side, TakeCommand, TeachCommand, Touch, TransportCommand, ViewCommand,
 };
 pub use controls::view::{ControlView, DeviceHealth, DeviceView, LearningView, OutputView};
 pub use device_profiles::{Profiles, Reaction};
@@ -55,6 +58,6 @@ pub use puppet::{EndHandle, JointHandle, Pace, PuppetPoseView, PuppetSpec};
 pub use rig::{Rig, RigError, RigOptions};
 pub use snapshot::{
     DeskKeyView, DeskView, DialView, FigureView, JointView, KeyView, KineticsView, NetworkLook, Note,
-    NoteLevel, PuppetState, PuppetView, Snapshot, TransportView, ViewState,
+    NoteLevel, PuppetState, PuppetView, Snapshot, TakeView, TransportView, ViewState,
 };
 pub use system::{SystemPorts, WithBench, real_time};

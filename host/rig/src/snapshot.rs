@@ -59,6 +59,10 @@ pub struct Snapshot {
     pub devices: Vec<DeviceView>,
     /// What is being learnt, while something is ([`crate::LearnCommand`]).
     pub learning: Option<LearningView>,
+    /// The take that is being made or becoming keys.
+    pub take: Option<TakeView>,
+    /// Takes of the show, in order of their names.
+    pub takes: Vec<String>,
     /// What [`crate::Command::Undo`] would take back, in words.
     pub undo: Option<String>,
     /// What [`crate::Command::Redo`] would make again, in words.
@@ -147,6 +151,19 @@ pub struct TransportView {
     pub looped: bool,
     /// Playing speed; 1 is real time.
     pub speed: f64,
+}
+
+/// A take that is being made, or that is becoming keys.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TakeView {
+    /// What it is called.
+    pub name: String,
+    /// Whether it is still being recorded; its keys are worked out otherwise.
+    pub recording: bool,
+    /// How long it is so far, seconds.
+    pub secs: f64,
+    /// The devices in it.
+    pub devices: Vec<String>,
 }
 
 impl Snapshot {

@@ -13,6 +13,7 @@ use ps300::display::Stroke;
 
 use crate::command::{PoseCommand, Side};
 use crate::snapshot::FigureView;
+use crate::take::StageStart;
 
 /// The posed figure and the state of the hands on it.
 #[derive(Debug)]
@@ -175,6 +176,36 @@ impl Stage {
     fn step(&mut self, by: i32) {
         let last = self.figure.len().saturating_sub(1) as i32;
         self.select((i32::from(self.selected).saturating_add(by)).clamp(0, last) as u16);
+    }
+
+    /// The pose, shared as long as it stays the same.
+    pub(crate) fn shared_pose(&self) -> Arc<FigurePose> {
+        Arc::new(self.pose.clone())
+    }
+
+    /// How the figure stands and the hands on it.
+    pub(crate) fn standing(&self) -> StageStart {
+        StageStart {
+            pose: self.pose.clone(),
+            selected: self.selected,
+            side: self.side,
+            cursor: self.cursor.map(|at| at.to_array()),
+            posing: self.posing,
+        }
+    }
+
+    /// Goes on from there; a pose of another figure is left alone.
+    pub(crate) fn resume(&mut self, start: &StageStart) {
+        if start.pose.links.len() != self.figure.len() {
+            return;
+        }
+        self.pose.clone_from(&start.pose);
+        self.selected = start.selected;
+        self.side = start.side;
+        self.cursor = start.cursor.map(DVec2::from_array);
+        self.posing = start.posing;
+        self.candidates.clear();
+        self.place();
     }
 
     pub(crate) fn pose(&self) -> &FigurePose {

@@ -46,6 +46,30 @@ impl Timeline {
         }
     }
 
+    /// Where time is and how it runs, without the clip's ends.
+    pub(crate) fn standing(&self) -> TransportView {
+        TransportView {
+            start_secs: 0.0,
+            end_secs: 0.0,
+            ..self.view.clone()
+        }
+    }
+
+    /// Goes on from there.
+    pub(crate) fn resume(&mut self, start: &TransportView) {
+        self.view = TransportView {
+            start_secs: self.view.start_secs,
+            end_secs: self.view.end_secs,
+            ..start.clone()
+        };
+    }
+
+    /// Stops at the first key.
+    pub(crate) fn go_to_start(&mut self) {
+        self.view.playing = false;
+        self.view.secs = self.view.start_secs;
+    }
+
     /// Goes along with something else that plays the clip, `since_start_secs` after its first key. Time that runs
     /// by itself is left alone. Returns whether it moved.
     pub(crate) fn go_along(&mut self, since_start_secs: f64) -> bool {

@@ -114,6 +114,29 @@ impl Wiring {
         (wiring, remarks)
     }
 
+    /// Goes on from how a network stood at a time, in seconds and frames, on another machine that has what `show`, the
+    /// puppet's joints and the devices can be asked for.
+    pub(crate) fn resume(
+        show: &Show,
+        joints: &[String],
+        devices: &mut [Instance],
+        network: &str,
+        (secs, frame): (f64, u64),
+    ) -> Self {
+        let bare = Show {
+            networks: Vec::new(),
+            patches: Arc::from(""),
+            ..show.clone()
+        };
+        let (mut wiring, _) = Self::load(&bare, joints, devices);
+        // Clocks begin where the network's time is.
+        wiring.machine.tick(secs, frame, FIRINGS_PER_STEP);
+        wiring.machine.load(network);
+        wiring.machine.drain_sinks(|_, _, _, _| {});
+        (wiring.secs, wiring.frame) = (secs, frame);
+        wiring
+    }
+
     fn declare_joints(&mut self, joints: &[String]) {
         let kinds: Vec<Kinds> = JOINT.iter().map(|(kinds, _)| *kinds).collect();
         for joint in joints {
@@ -224,6 +247,11 @@ impl Wiring {
     /// Takes a change back, or makes it again; both are texts with state.
     pub(crate) fn restore(&mut self, from: &str, to: &str) {
         self.machine.restore(from, to);
+    }
+
+    /// The network as it runs, and the frames it has counted.
+    pub(crate) fn standing(&self) -> (String, u64) {
+        (self.text_with_state(), self.frame)
     }
 
     /// Withholds what an output would send, or lets it send again.

@@ -1,6 +1,7 @@
 //! The commands: one a file, each with its `Args` (options, help, example) and a `run`.
 
 mod bench;
+mod capture;
 mod check;
 mod convert;
 mod curve;
@@ -12,6 +13,8 @@ mod monitor;
 mod net;
 mod play;
 mod profile;
+mod record;
+mod replay;
 mod sample;
 mod servo;
 mod sim;
@@ -38,6 +41,9 @@ pub(crate) enum Command {
     Devices(devices::Args),
     Monitor(monitor::Args),
     Profile(profile::Args),
+    Capture(capture::Args),
+    Replay(replay::Args),
+    Record(record::Args),
     Servo(servo::Args),
     Sim(sim::Args),
     Bench(bench::Args),
@@ -65,6 +71,9 @@ impl Command {
             Self::Devices(args) => devices::run(args, console),
             Self::Monitor(args) => monitor::run(args, console),
             Self::Profile(args) => profile::run(args, console),
+            Self::Capture(args) => capture::run(args, console),
+            Self::Replay(args) => replay::run(args, console),
+            Self::Record(args) => record::run(args, console),
             Self::Servo(args) => servo::run(args, console),
             Self::Sim(args) => sim::run(args, console),
             Self::Bench(args) => bench::run(args, console),

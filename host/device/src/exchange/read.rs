@@ -78,6 +78,11 @@ fn head_line(text: &str, line: u32, exchange: &mut Exchange) -> Result<bool, Exc
             format!("`{key}:` must stand before the first thing said"),
         ));
     }
+    // A source may have any sign in it; elsewhere `#` begins a remark.
+    let value = match key {
+        "source" => value,
+        _ => value.split('#').next().unwrap_or_default(),
+    };
     let value = value.trim();
     let place = match key {
         "profile" => profile,

@@ -61,6 +61,11 @@ pub(crate) struct Controls {
 }
 
 impl Controls {
+    /// The network is another one: what controls drive in it is looked up anew.
+    pub(crate) fn forget_wires(&mut self) {
+        self.wires = Wires::default();
+    }
+
     /// Adds a device that was not known before; returns its place. The first with dials is the desk, the first with
     /// a surface its tablet, for good.
     pub(crate) fn add(&mut self, device: &str, profile: &InputProfile) -> usize {

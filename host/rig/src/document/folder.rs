@@ -13,10 +13,11 @@ use super::clip::{ClipDoc, JointClipDoc};
 use super::clip_file;
 use super::fault::{FileError, FileErrors, Findings};
 use super::figure::{FigureDoc, FigureTexts};
-use super::save::AUTOSAVE;
+use super::save::{AUTOSAVE, take_path};
 use super::show::{NetworkFile, Show};
 use super::show_file::{self, Named, ShowText};
 use super::source::Source;
+use crate::take::Take;
 
 /// A show that has been read.
 #[derive(Clone, Debug)]
@@ -95,6 +96,7 @@ fn read(folder: &Path, file: &Path, found: &mut Findings) -> Option<Show> {
         .as_ref()
         .and_then(|named| read_figure(folder, named, &source, found));
     let (clips, joint_clips) = read_clips(folder, &text, figure.as_ref(), &source, found);
+    let takes = read_takes(folder, &text, &source, found);
     let networks = read_networks(folder, &text, &source, found);
     let patches = text
         .patches
@@ -107,6 +109,7 @@ fn read(folder: &Path, file: &Path, found: &mut Findings) -> Option<Show> {
         clips,
         joint_clips,
         clip,
+        takes,
         networks,
         patches: patches.map_or_else(|| Arc::from(""), |source| Arc::from(source.text())),
         puppet: text.puppet,
@@ -207,6 +210,26 @@ fn read_clips(
     }
     warn_of_unlisted(&folder.join("clips"), text, found);
     (clips, joint_clips)
+}
+
+fn read_takes(
+    folder: &Path,
+    text: &ShowText,
+    show: &Source,
+    found: &mut Findings,
+) -> BTreeMap<String, Arc<Take>> {
+    let mut takes = BTreeMap::new();
+    for named in &text.takes {
+        let path = take_path(folder, &named.name);
+        let Some(source) = open_part(&path, named, show, found) else {
+            continue;
+        };
+        match crate::take::read(&path, source.text()) {
+            Ok(take) => drop(takes.insert(named.name.clone(), Arc::new(take))),
+            Err(error) => found.error(error),
+        }
+    }
+    takes
 }
 
 /// A clip file that the show does not name is not read; that may not be meant.

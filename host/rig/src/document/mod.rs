@@ -36,4 +36,5 @@ pub use figure::{FigureDoc, FigureTexts};
 pub use folder::{Loaded, load};
 pub use frames::ExportError;
 pub use save::{autosave, from_texts, save, texts};
+pub(crate) use show::is_file_name;
 pub use show::{NetworkFile, Show};

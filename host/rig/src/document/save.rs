@@ -106,6 +106,9 @@ fn files(show: &Show, folder: &Path) -> Result<Vec<NewFile>, FileErrors> {
             clip_file::write_joints(clip),
         );
     }
+    for (name, take) in &show.takes {
+        add(take_path(folder, name), crate::take::write(take));
+    }
     for network in &show.networks {
         add(
             folder.join("networks").join(format!("{}.ps300", network.name)),
@@ -119,10 +122,15 @@ fn files(show: &Show, folder: &Path) -> Result<Vec<NewFile>, FileErrors> {
     Ok(files)
 }
 
+/// Where a take is kept.
+pub(super) fn take_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join("takes").join(format!("{name}.toml"))
+}
+
 /// Names become file names; a name that cannot is refused before anything is written.
 fn check_names(show: &Show, folder: &Path) -> Result<(), FileErrors> {
     let figure = show.figure.iter().map(|figure| figure.name.as_str());
-    let clips = show.clip_names();
+    let clips = show.clip_names().chain(show.takes.keys().map(String::as_str));
     let networks = show.networks.iter().map(|network| network.name.as_str());
     let fault = |name: &str| {
         let error = FileError::whole(folder, format!("`{name}` cannot be the name of a file"));

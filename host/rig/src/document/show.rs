@@ -7,6 +7,7 @@ use super::clip::{ClipDoc, JointClipDoc};
 use super::demands::Demands;
 use super::figure::FigureDoc;
 use crate::snapshot::ViewState;
+use crate::take::{Keyed, Take};
 
 /// One show. Never changed in place: an edit makes another one, sharing what stayed the same, so cloning
 /// costs a few reference counts.
@@ -26,6 +27,8 @@ pub struct Show {
     pub networks: Vec<Arc<NetworkFile>>,
     /// Network commands given while the show ran, executed after the files; one text, in order.
     pub patches: Arc<str>,
+    /// Performances by name.
+    pub takes: BTreeMap<String, Arc<Take>>,
     /// Name of the puppet profile the figure is played on.
     pub puppet: Option<String>,
     /// What the show demands of its puppet beside the profile.
@@ -98,6 +101,36 @@ impl Show {
         }
     }
 
+    /// Puts a take's clip in place of that of the same name of either kind, and chooses it.
+    pub(crate) fn put_clip(&mut self, name: &str, keyed: Keyed) {
+        self.clips.remove(name);
+        self.joint_clips.remove(name);
+        match keyed {
+            Keyed::Figure(clip) => drop(self.clips.insert(name.to_owned(), Arc::new(clip))),
+            Keyed::Joints(clip) => drop(self.joint_clips.insert(name.to_owned(), Arc::new(clip))),
+        }
+        name.clone_into(&mut self.clip);
+    }
+
+    /// The show with that clip chosen, if there is one of that name.
+    #[must_use]
+    pub(crate) fn with_clip_chosen(&self, name: &str) -> Self {
+        let there = self.clips.contains_key(name) || self.joint_clips.contains_key(name);
+        let clip = if there { name } else { "" };
+        Self {
+            clip: clip.to_owned(),
+            ..self.clone()
+        }
+    }
+
+    /// The show without a take.
+    #[must_use]
+    pub(crate) fn without_take(&self, name: &str) -> Self {
+        let mut show = self.clone();
+        show.takes.remove(name);
+        show
+    }
+
     /// The show with one clip put in place of that of the same name, or added.
     #[must_use]
     pub fn with_clip(&self, name: &str, clip: ClipDoc) -> Self {
@@ -111,7 +144,7 @@ impl Show {
 }
 
 /// Whether a name can also be a file's, on every system: letters, digits, spaces, `-`, `_` and inner dots.
-pub(super) fn is_file_name(name: &str) -> bool {
+pub(crate) fn is_file_name(name: &str) -> bool {
     let plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.');
     !name.is_empty()
         && name.len() <= 100

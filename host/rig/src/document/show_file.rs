@@ -26,6 +26,7 @@ pub(super) struct ShowText {
     pub(super) figure: Option<Named>,
     pub(super) clips: Vec<Named>,
     pub(super) clip: Option<Named>,
+    pub(super) takes: Vec<Named>,
     pub(super) networks: Vec<Named>,
     pub(super) patches: Option<Named>,
     pub(super) puppet: Option<String>,
@@ -94,6 +95,8 @@ fn read_1(mut file: Fields<'_>, found: &mut Findings) -> ShowText {
         .into_iter()
         .filter_map(|v| network_path(v, found))
         .collect();
+    let takes = file.optional("takes").map(|v| list(v, found)).unwrap_or_default();
+    text.takes = takes.into_iter().filter_map(|v| part_name(v, found)).collect();
     text.patches = file.optional("patches").and_then(|v| network_path(v, found));
     text.demands = Demands::read(&mut file, found);
     file.finish(found);
@@ -217,6 +220,9 @@ pub(super) fn write(show: &Show) -> String {
     line("clips", strings(show.clip_names().map(quoted)));
     if !show.clip.is_empty() {
         line("clip", quoted(&show.clip));
+    }
+    if !show.takes.is_empty() {
+        line("takes", strings(show.takes.keys().map(|name| quoted(name))));
     }
     line(
         "networks",

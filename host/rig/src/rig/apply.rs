@@ -54,6 +54,7 @@ impl Rig {
             | Command::Controls(_)
             | Command::TestOutput { .. }
             | Command::PinDevice { .. } => self.control(command),
+            Command::Take(take) => self.ask_for_take(take),
             Command::Save => self.save(),
         };
         if let Err(why) = done {
@@ -174,7 +175,7 @@ impl Rig {
     }
 
     /// Takes over a show that undo or redo brought back, touching only what differs.
-    fn changed_from(&mut self, before: &Arc<document::Show>) {
+    pub(super) fn changed_from(&mut self, before: &Arc<document::Show>) {
         let show = Arc::clone(self.history.present());
         self.network_changed_from(before);
         let clips = show.clips == before.clips && show.joint_clips == before.joint_clips;

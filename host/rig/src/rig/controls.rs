@@ -71,10 +71,10 @@ impl Rig {
         self.refresh_controls();
         let mut heard = std::mem::take(&mut self.heard);
         let mut changes = Vec::new();
-        self.inputs
-            .poll(self.now, self.ports.as_mut(), &mut heard, &mut |change| {
-                changes.push(change);
-            });
+        let mut ports = self.takes.tapes.at(self.ports.as_mut(), &self.clock, self.began);
+        self.inputs.poll(self.now, &mut ports, &mut heard, &mut |change| {
+            changes.push(change);
+        });
         // What was plugged in just now may have spoken already.
         self.meet_new_devices();
         for it in heard.drain(..) {

@@ -10,6 +10,7 @@ mod learn;
 mod look;
 mod network;
 mod rehearse;
+mod takes;
 mod teach;
 use teach::Held;
 
@@ -37,6 +38,7 @@ use crate::stage::Stage;
 use crate::timeline::Timeline;
 use crate::wiring::{Wiring, shapes};
 use rehearse::Rehearsing;
+use takes::Takes;
 
 /// Longest time one step may cover; a host that slept longer plays on from where it was.
 const ELAPSED_SECS_MAX: f64 = 0.25;
@@ -99,6 +101,8 @@ pub struct Rig {
     teaching: bool,
     /// Joints held while teaching, and where.
     held: Held,
+    takes: Takes,
+    profiles: Arc<Profiles>,
     coefficient: usize,
     notes: Notes,
     began: Instant,
@@ -156,6 +160,8 @@ impl Rig {
             rehearsing,
             teaching: false,
             held: Held::default(),
+            takes: Takes::default(),
+            profiles,
             coefficient: 1,
             notes: Notes::default(),
             began,
@@ -175,15 +181,25 @@ impl Rig {
 
     /// One step. Commands are done in the order given.
     pub fn step(&mut self, commands: &mut dyn Iterator<Item = Command>) -> Arc<Snapshot> {
+        let commands: Vec<Command> = commands.collect();
+        self.go(&commands);
+        let snapshot = Arc::new(self.look());
+        if let Some(recorder) = &self.recorder {
+            recorder.snapshot(&snapshot);
+        }
+        snapshot
+    }
+
+    /// A step that nobody looks at.
+    pub(crate) fn go(&mut self, commands: &[Command]) {
         let now = self.clock.now();
         let elapsed_secs = now.since(self.now).as_secs_f64().min(ELAPSED_SECS_MAX);
         self.now = now;
-        let commands: Vec<Command> = commands.collect();
         if let Some(recorder) = &self.recorder {
-            recorder.step(now, &commands);
+            recorder.step(now, commands);
         }
         self.hear_devices();
-        for command in &commands {
+        for command in commands {
             self.apply(command);
             self.learn_parameter(command);
         }
@@ -197,13 +213,9 @@ impl Rig {
         self.drive_puppet();
         self.show_taught();
         self.show_on_devices();
+        self.go_on_with_takes(commands);
         self.autosave_if_due();
         self.steps += 1;
-        let snapshot = Arc::new(self.look());
-        if let Some(recorder) = &self.recorder {
-            recorder.snapshot(&snapshot);
-        }
-        snapshot
     }
 
     /// Machine time since the rig began, seconds.

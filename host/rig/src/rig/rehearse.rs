@@ -1,5 +1,6 @@
 //! The puppet on the rig's desk: posed by hand, shown as its clip has it, and rehearsed before it moves.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use device_profiles::Profiles;
@@ -68,6 +69,24 @@ impl Rehearsing {
     /// The puppet as it is posed on screen.
     pub(super) fn mannequin(&self) -> &Mannequin {
         &self.mannequin
+    }
+
+    /// Angles of the joints that follow none, radians.
+    pub(super) fn key(&self) -> BTreeMap<String, f64> {
+        self.mannequin.key()
+    }
+
+    /// Goes on from such a pose; joints that are not there are left out.
+    pub(super) fn resume(&mut self, angles_rad: &BTreeMap<String, f64>, by_hand: bool) {
+        for (joint, &angle_rad) in angles_rad {
+            let joint = joint.clone();
+            let _ = self
+                .mannequin
+                .apply(&PuppetPose::Joint { joint, angle_rad }, None);
+        }
+        if !by_hand {
+            self.mannequin.stored();
+        }
     }
 
     pub(super) fn pose_view(&mut self) -> PuppetPoseView {
