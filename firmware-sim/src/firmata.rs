@@ -39,7 +39,7 @@ pub struct Options {
     pub name: String,
     /// Opening the port restarts it, as most boards do.
     pub restarts_when_opened: bool,
-    /// The pins of the potentiometers, 14 to 19, in the order of their numbers.
+    /// The analog channels of the potentiometers, 0 (A0) to 5, in the order of their numbers.
     pub pots: Vec<u8>,
     /// The pins of the buttons.
     pub buttons: Vec<u8>,
@@ -56,7 +56,7 @@ impl Default for Options {
         Self {
             name: "ConfigurableFirmata".to_owned(),
             restarts_when_opened: true,
-            pots: vec![14, 15, 16, 17, 18, 19],
+            pots: vec![0, 1, 2, 3, 4, 5],
             buttons: vec![7, 8, 12, 13],
             encoders: vec![[2, 3]],
             counts_per_turn: 96,
@@ -426,11 +426,11 @@ impl Firmata {
     fn touch_now(&mut self, touch: &Touch) -> bool {
         match *touch {
             Touch::Axis { control, to, over_us } => {
-                let pin = self.options.pots.get(usize::from(control)).copied();
-                let Some(channel) = pin.and_then(Board::channel) else {
+                let channel = self.options.pots.get(usize::from(control)).copied();
+                let Some(pot) = channel.and_then(|n| self.board.pots.get_mut(usize::from(n))) else {
                     return false;
                 };
-                self.board.pots[usize::from(channel)].go(self.reached_ns, to, over_us * 1000);
+                pot.go(self.reached_ns, to, over_us * 1000);
             }
             Touch::Button { control, down } => {
                 let Some(&pin) = self.options.buttons.get(usize::from(control)) else {
