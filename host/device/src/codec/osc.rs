@@ -132,7 +132,7 @@ impl Osc {
                     // What a button shows is what it said.
                     self.lamps.sent.insert(control, if now { 255 } else { 0 });
                     edge(&mut self.down, control, now, |down| {
-                        emit(InputEvent::Button { control, down })
+                        emit(InputEvent::Button { control, down });
                     });
                 }
                 // TouchOSC's encoders say 1 for a step up and 0 for a step down; others say how many.

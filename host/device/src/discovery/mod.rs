@@ -9,6 +9,7 @@
 mod drivers;
 mod found;
 mod matching;
+mod midi;
 mod open;
 mod rules;
 mod strings;
@@ -46,9 +47,10 @@ impl Default for Places {
     }
 }
 
-/// All HID devices and serial ports, in the order of their addresses. Nothing is opened.
+/// All HID devices, MIDI nodes and serial ports, in the order of their addresses. Nothing is opened.
 pub fn list(places: &Places) -> Vec<Found> {
     let mut found = sysfs::hid(&places.sys, &places.dev);
+    found.extend(midi::nodes(places));
     found.extend(ports::list().into_iter().map(|port| serial(port, &places.sys)));
     found.sort_by(|a, b| a.address.cmp(&b.address));
     found

@@ -2,7 +2,7 @@
 
 use super::{Places, sysfs};
 use crate::clock::Clock;
-use crate::transport::{self, Address, Transport, TransportError, hid, ports, stamped_serial};
+use crate::transport::{self, Address, Transport, TransportError, hid, midi_raw, osc, ports, stamped_serial};
 use device_profiles::Line;
 use std::path::Path;
 use std::sync::Arc;
@@ -29,6 +29,8 @@ pub fn open(
             let usb = found.iter().find(|f| f.address == *path).and_then(|f| f.usb);
             Ok(Box::new(hid::open(path, usb, clock)?))
         }
+        Address::Path(path) if midi_raw::is_node(path) => Ok(Box::new(midi_raw::open(path, clock)?)),
+        Address::Osc(place) => Ok(Box::new(osc::open(*place, clock)?)),
         Address::Path(path) => serial(path, clock),
         Address::Usb(wanted) => {
             let ports = ports::list();
@@ -61,7 +63,12 @@ mod tests {
                 .err()
                 .expect("nothing is there")
         };
-        for text in ["/dev/hidraw99", "usb:no-such-serial", "sim:pad"] {
+        for text in [
+            "/dev/hidraw99",
+            "/dev/snd/midiC9D9",
+            "usb:no-such-serial",
+            "sim:pad",
+        ] {
             assert!(matches!(open(text), TransportError::NotFound { .. }), "{text}");
         }
         assert!(open("/dev/ttyS99").to_string().contains("expected [line]"));

@@ -79,7 +79,7 @@ pub(super) fn above_serial(sys: &Path, found: &mut Found) {
 }
 
 /// The USB interface and device that `folder` lies in.
-fn above(folder: &Path, found: &mut Found) {
+pub(super) fn above(folder: &Path, found: &mut Found) {
     let levels = || folder.ancestors().take(LEVELS_MAX);
     let Some(device) = levels().find(|level| level.join("idVendor").is_file()) else {
         return;
@@ -88,6 +88,8 @@ fn above(folder: &Path, found: &mut Found) {
     let decimal = |name: &str| text(&device.join(name))?.parse().ok();
     let interface = levels().find_map(|level| hexadecimal(&level.join("bInterfaceNumber")));
     found.interface = interface.and_then(|number| number.try_into().ok());
+    found.vendor = found.vendor.or_else(|| hexadecimal(&device.join("idVendor")));
+    found.product = found.product.or_else(|| hexadecimal(&device.join("idProduct")));
     found.place = link_or_name(device);
     if let Some(maker) = text(&device.join("manufacturer")) {
         found.maker = maker;
@@ -108,7 +110,7 @@ fn above(folder: &Path, found: &mut Found) {
 }
 
 /// By trying nothing: opening a device may already do something to it.
-fn access(node: &Path) -> Access {
+pub(super) fn access(node: &Path) -> Access {
     use rustix::fs::Access as Right;
     match rustix::fs::access(node, Right::READ_OK | Right::WRITE_OK) {
         Ok(()) => Access::Allowed,
@@ -117,7 +119,7 @@ fn access(node: &Path) -> Access {
     }
 }
 
-fn text(file: &Path) -> Option<String> {
+pub(super) fn text(file: &Path) -> Option<String> {
     // Names that a device made up may hold anything.
     let bytes = std::fs::read(file).ok()?;
     let text = String::from_utf8_lossy(&bytes).trim().to_owned();

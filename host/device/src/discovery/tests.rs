@@ -1,6 +1,6 @@
 use super::*;
 use crate::codec::outline::ReportKind;
-use device_profiles::{InitStep, InputKind, InputProfile, Kind, Match, Profiles};
+use device_profiles::{Bus, InitStep, InputKind, InputProfile, Kind, Match, Profiles};
 use std::fs;
 use std::os::unix::fs::symlink;
 
@@ -369,5 +369,51 @@ fn every_profile_s_devices_are_in_the_rules() {
                 profile.key
             );
         }
+    }
+}
+
+#[test]
+fn a_midi_node_has_its_ports_name_and_the_usb_device_above_its_card() {
+    let machine = Machine::new();
+    let root = machine.root.path();
+    let sys = root.join("sys");
+    let device = sys.join("devices/usb1/1-4");
+    let card = device.join("1-4:1.0/sound/card2");
+    fs::create_dir_all(card.join("midiC2D0")).expect("room");
+    fs::create_dir_all(sys.join("class/sound")).expect("room");
+    for (file, text) in [
+        ("idVendor", "1397"),
+        ("idProduct", "00b3"),
+        ("busnum", "1"),
+        ("devnum", "9"),
+        ("product", "X-TOUCH MINI"),
+    ] {
+        fs::write(device.join(file), format!("{text}\n")).expect("room");
+    }
+    symlink(&card, card.join("midiC2D0/device")).expect("a link");
+    symlink(card.join("midiC2D0"), sys.join("class/sound/midiC2D0")).expect("a link");
+    symlink(&card, sys.join("class/sound/card2")).expect("a link");
+    fs::create_dir_all(root.join("proc/asound/card2")).expect("room");
+    fs::write(
+        root.join("proc/asound/card2/midi0"),
+        "X-TOUCH MINI\n\nOutput 0\n  Tx bytes : 0\n",
+    )
+    .expect("room");
+    fs::create_dir_all(root.join("dev/snd")).expect("room");
+    fs::write(root.join("dev/snd/midiC2D0"), "").expect("room");
+
+    let found = list(&machine.places());
+    let node = found.iter().find(|f| f.bus == Bus::Midi).expect("it is listed");
+    assert!(node.address.ends_with("/dev/snd/midiC2D0"));
+    assert_eq!(
+        (node.title.as_str(), node.id().as_deref()),
+        ("X-TOUCH MINI", Some("1397:00b3"))
+    );
+    assert_eq!(node.place.as_deref(), Some("1-4"));
+    assert_eq!(node.access, Access::Allowed);
+    let profiles = Profiles::builtin();
+    match judge(node, &profiles, &mut |_| Err("not asked".to_owned())) {
+        Verdict::One(profile) => assert_eq!(profile.key, "x-touch-mini"),
+        other => panic!("{other:?}"),
     }
 }

@@ -1,5 +1,6 @@
-//! How people name a line: a path, `tcp:HOST:PORT`, `usb:SERIAL`, `sim:NAME`.
+//! How people name a line: a path, `tcp:HOST:PORT`, `usb:SERIAL`, `osc:PORT`, `sim:NAME`.
 
+use super::osc::OscPlace;
 use super::{Transport, TransportError, ports, serial, tcp};
 use std::fmt;
 use std::str::FromStr;
@@ -18,6 +19,8 @@ pub enum Address {
     },
     /// A USB serial port, by the serial number of its adapter or device.
     Usb(String),
+    /// A network controller, heard by UDP.
+    Osc(OscPlace),
     /// A simulated device on the embedded bench, which this crate does not have.
     Sim(String),
 }
@@ -45,6 +48,9 @@ impl FromStr for Address {
                 })
             };
         }
+        if let Some(place) = text.strip_prefix("osc:") {
+            return OscPlace::parse(place).map(Self::Osc).ok_or_else(wrong);
+        }
         let (made, name): (fn(String) -> Self, &str) = if let Some(serial) = text.strip_prefix("usb:") {
             (Self::Usb, serial)
         } else if let Some(name) = text.strip_prefix("sim:") {
@@ -69,12 +75,14 @@ impl fmt::Display for Address {
             Self::Tcp { host, port } if host.contains(':') => write!(f, "tcp:[{host}]:{port}"),
             Self::Tcp { host, port } => write!(f, "tcp:{host}:{port}"),
             Self::Usb(serial) => write!(f, "usb:{serial}"),
+            Self::Osc(place) => write!(f, "osc:{place}"),
             Self::Sim(name) => write!(f, "sim:{name}"),
         }
     }
 }
 
-/// Opens any address but `sim:`, which answers [`TransportError::NotFound`].
+/// Opens a line for bytes. `sim:` answers [`TransportError::NotFound`], and so does `osc:`, which is for input devices
+/// only ([`crate::discovery::open`]).
 pub fn open(address: &Address, baud: u32) -> Result<Box<dyn Transport>, TransportError> {
     match address {
         Address::Path(path) => Ok(Box::new(serial::open(path, baud)?)),
@@ -88,7 +96,7 @@ pub fn open(address: &Address, baud: u32) -> Result<Box<dyn Transport>, Transpor
             })?;
             Ok(Box::new(serial::open(&found.path, baud)?))
         }
-        Address::Sim(_) => Err(TransportError::NotFound {
+        Address::Osc(_) | Address::Sim(_) => Err(TransportError::NotFound {
             address: address.to_string(),
         }),
     }
@@ -110,6 +118,14 @@ mod tests {
             ("tcp:localhost:4000", tcp("localhost", 4000)),
             ("tcp:[::1]:4000", tcp("::1", 4000)),
             ("usb:FT4THVJ6", Address::Usb("FT4THVJ6".to_owned())),
+            (
+                "osc:8000-9000",
+                Address::Osc(OscPlace {
+                    listen: 8000,
+                    send: Some(9000),
+                    on: None,
+                }),
+            ),
             ("sim:dial-box", Address::Sim("dial-box".to_owned())),
         ];
         for (text, want) in rows {
@@ -130,6 +146,8 @@ mod tests {
             "tcp::1",
             "usb:",
             "sim:",
+            "osc:",
+            "osc:0",
         ] {
             let error = text.parse::<Address>().unwrap_err().to_string();
             assert!(

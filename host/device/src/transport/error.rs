@@ -34,7 +34,9 @@ pub enum TransportError {
         address: String,
     },
     /// The address means nothing.
-    #[error("\"{address}\" is not an address; expected /dev/NAME, tcp:HOST:PORT, usb:SERIAL or sim:NAME")]
+    #[error(
+        "\"{address}\" is not an address; expected /dev/NAME, tcp:HOST:PORT, usb:SERIAL, osc:PORT or sim:NAME"
+    )]
     Address {
         /// As it was asked for.
         address: String,

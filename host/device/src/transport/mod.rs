@@ -9,6 +9,8 @@ pub mod hid;
 mod intake;
 pub mod memory;
 pub mod merged;
+pub mod midi_raw;
+pub mod osc;
 pub mod ports;
 pub mod pty;
 pub mod serial;

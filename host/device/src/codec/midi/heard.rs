@@ -231,7 +231,7 @@ impl Heard {
             }),
             Target::Button { control } => {
                 edge(&mut self.down, control, value > 0, |down| {
-                    emit(InputEvent::Button { control, down })
+                    emit(InputEvent::Button { control, down });
                 });
             }
             Target::Touch { axis } => {
