@@ -15,7 +15,7 @@ use crate::script::{Device, Script};
 use crate::serial_kinds::SerialDevice;
 use crate::uart::Parity;
 use command::{Command, Parser};
-use device_profiles::InputProfile;
+use device_profiles::{InputProfile, MmFraming};
 use packet::{Manner, Pointer};
 use std::collections::VecDeque;
 
@@ -52,6 +52,8 @@ pub struct Model {
     pub inches: [f64; 2],
     /// How it writes.
     pub form: Form,
+    /// Lines per inch after power-up.
+    pub counts_per_inch: u16,
 }
 
 impl Default for Model {
@@ -61,16 +63,32 @@ impl Default for Model {
             text: "MM2 12x12 Tablet by Summagraphics Firmware Version 1.00".to_owned(),
             inches: [12.0, 12.0],
             form: Form::Binary,
+            counts_per_inch: DEFAULT_COUNTS_PER_INCH,
         }
     }
 }
 
-impl From<&InputProfile> for Model {
-    fn from(profile: &InputProfile) -> Self {
-        Self {
-            inches: profile.area().mm().map(|mm| mm / 25.4),
+impl Model {
+    /// The tablet that `profile` describes; none for those with a third axis, which are not simulated.
+    pub fn of_profile(profile: &InputProfile) -> Option<Self> {
+        let form = match profile.mm?.framing {
+            MmFraming::Absolute | MmFraming::Relative => Form::Binary,
+            // The one that does not say when its cursor leaves.
+            MmFraming::Ascii if profile.leave_after_ms.is_some() => Form::Mm1103,
+            MmFraming::Ascii => Form::BitPadTwo,
+            MmFraming::Flair => return None,
+        };
+        let area = profile.area();
+        let counts_per_inch = match form {
+            Form::Binary => DEFAULT_COUNTS_PER_INCH,
+            Form::Mm1103 | Form::BitPadTwo => area.per_inch()[0].round() as u16,
+        };
+        Some(Self {
+            inches: area.mm().map(|mm| mm / 25.4),
+            form,
+            counts_per_inch,
             ..Self::default()
-        }
+        })
     }
 }
 
@@ -327,7 +345,7 @@ fn defaults(model: &Model) -> Settings {
         increment: 0,
         manner: Manner {
             inches: model.inches,
-            counts_per_inch: DEFAULT_COUNTS_PER_INCH,
+            counts_per_inch: model.counts_per_inch,
             upper_origin: false,
             absolute: true,
             tablet_id: false,

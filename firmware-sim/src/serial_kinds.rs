@@ -6,7 +6,7 @@ use crate::firmata::Firmata;
 use crate::firmware::Firmware;
 use crate::hands::Hands;
 use crate::midi_box;
-use crate::mm::SummagraphicsMm;
+use crate::mm::{self, SummagraphicsMm};
 use crate::script::{Device, Script};
 use crate::uart::Parity;
 use crate::wacom_v::WacomV;
@@ -35,7 +35,7 @@ pub trait SerialDevice: Firmware + Hands + Send {
 pub fn serial_device(profile: &InputProfile) -> Option<Box<dyn SerialDevice>> {
     Some(match profile.format.as_str() {
         "wacom-v" => Box::new(WacomV::new(profile.into(), 0)),
-        "mm" => Box::new(SummagraphicsMm::new(profile.into(), 0)),
+        "mm" => Box::new(SummagraphicsMm::new(mm::Model::of_profile(profile)?, 0)),
         "deej" => Box::new(Deej::new(profile.into())),
         "firmata" => Box::new(Firmata::new(profile.into())),
         "midi" => return midi_box::of_profile(&profile.key),

@@ -395,4 +395,6 @@ impl Stand {
 }
 
 #[cfg(test)]
+mod serial_tests;
+#[cfg(test)]
 mod tests;
