@@ -5,6 +5,7 @@ mod directions;
 mod docs;
 mod exchanges;
 mod golden;
+mod input_profiles;
 mod measures;
 mod motion_capture;
 mod properties;
