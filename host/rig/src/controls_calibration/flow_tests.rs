@@ -1,3 +1,5 @@
+//! The flow of calibration, step by step, on counts as devices say them.
+
 use super::*;
 use device::codec::Tool;
 
