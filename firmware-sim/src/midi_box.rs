@@ -3,7 +3,7 @@
 //! Knows: MIDI's bytes (running status, real-time bytes in between, sysex), the cable, hands, and what all boxes have
 //! in common: what moved since the last message is in the next one, buttons are never passed over. What each box says
 //! and shows is in its own file, written from its maker's document. Start at [`MidiBox`], then
-//! [`x_touch_mini`].
+//! `x_touch_mini`.
 
 mod launch_control_xl;
 mod nano_kontrol2;

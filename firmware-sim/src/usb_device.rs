@@ -4,7 +4,7 @@
 //! beside them there are features, strings and requests. Whoever holds the other end (a test, the bench, a kernel's
 //! uhid or USB/IP) needs to know nothing else.
 //! Bytes are as on the wire: a report begins with its id only on interfaces that number their reports.
-//! Start reading at [`UsbDevice`]; [`chassis`] is what all devices have in common.
+//! Start reading at [`UsbDevice`]; `chassis` is what all devices have in common.
 
 pub(crate) mod chassis;
 mod descriptor;
@@ -73,7 +73,7 @@ pub enum Shown {
 /// time counts as the latest one seen. What comes out depends on what went in and when, never on how often it was
 /// looked at.
 pub trait UsbDevice: Hands + Send {
-    /// What the device says of itself as it stands on the bus now. Changes only when [`UsbDevice::arrivals`] does.
+    /// What the device says of itself as it stands on the bus now. Changes only when [`UsbDevice::arrival`] does.
     fn facts(&self) -> &UsbFacts;
 
     /// How often the device has come onto the bus, 0 while it is off it. When the number has changed, the host must

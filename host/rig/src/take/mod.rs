@@ -6,7 +6,7 @@
 //! always come from such a re-run, also when a take has just been made: so the same take through the same network
 //! gives the same keys, to the last bit.
 //!
-//! *Knows* what a device said since it was opened ([`tape`]), and how a rig is put into a former state ([`rerun`]).
+//! *Knows* what a device said since it was opened (`tape`), and how a rig is put into a former state (`rerun`).
 //! *Must not know* formats: what the bytes mean is the codecs' business.
 //! *Start reading* at [`Take`], then `rerun`.
 
