@@ -91,7 +91,10 @@ pub enum Record {
 }
 
 // The shape `skip_serializing_if` wants.
-#[allow(clippy::trivially_copy_pass_by_ref)]
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde calls it with a reference"
+)]
 fn is_false(flag: &bool) -> bool {
     !flag
 }
