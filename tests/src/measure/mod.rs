@@ -9,6 +9,7 @@ pub mod input;
 pub mod interpolant;
 pub mod lunge;
 pub mod network;
+mod port;
 pub mod rig_step;
 pub mod servo_cycle;
 

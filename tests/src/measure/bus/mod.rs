@@ -2,9 +2,11 @@
 //! STS at 1 Mbaud, beside two peers; and four buses at once.
 //!
 //! Everybody does the same: goal positions to all, present positions of all, each value looked at. Each has a
-//! simulated bus of its own behind a pseudo-terminal, as any program would see an adapter without latency; a thread
-//! that is awake when answers are due hands them over so that they are there when the wire has carried them (module
-//! `far`): what is above the limit is the program's own.
+//! simulated bus of its own; a thread that is awake when answers are due hands them over so that they are there when
+//! the wire has carried them (module `far`): what is above the limit is the program's own.
+//! Buses are reached by TCP inside the machine, which takes the same few microseconds each time, by us and by the peer
+//! that takes any port. The other peer opens terminals alone, whose kernel workers come 10 us sooner or later by chance;
+//! beside it we are measured on a terminal too.
 //! Ours is the player's bus as it is, limits, watchdog, health and all, told to read positions alone, by a thread that
 //! may stay awake around the time when answers are due.
 //! Source of the limit: the servo reference, 7.1.
@@ -77,6 +79,19 @@ impl Setup {
     }
 }
 
+/// Who is measured on a bus.
+fn cycles(setup: Setup) -> anyhow::Result<Vec<(&'static str, Boxed)>> {
+    let mut cycles = vec![
+        ("dialrig", ours::cycle(setup, Link::Tcp)?),
+        ("rustypot", peers::rustypot(setup, Link::Tcp)?),
+    ];
+    if setup.way == Way::Sync {
+        cycles.push(("dialrig on a terminal", ours::cycle(setup, Link::Terminal)?));
+        cycles.push(("dynamixel2 on a terminal", peers::dynamixel2(setup)?));
+    }
+    Ok(cycles)
+}
+
 /// A cycle that can be run again and again.
 pub(crate) trait Cycle {
     /// Goals out, readings in; every answer looked at. An error is a cycle that failed and may be tried again.
@@ -118,9 +133,7 @@ pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
         });
     }
     for setup in setups() {
-        let mut cycles: Vec<(&'static str, Boxed)> = vec![("dialrig", ours::cycle(setup)?)];
-        cycles.extend(peers::cycles(setup)?);
-        let mut subjects: Vec<Subject<'_>> = cycles
+        let mut subjects: Vec<Subject<'_>> = cycles(setup)?
             .into_iter()
             .map(|(name, mut cycle)| Subject {
                 row: setup.name(),
@@ -201,9 +214,7 @@ mod tests {
                 baud: 1_000_000,
                 way,
             };
-            let mut cycles = vec![("dialrig", ours::cycle(setup).expect("a terminal"))];
-            cycles.extend(peers::cycles(setup).expect("a terminal"));
-            for (name, mut cycle) in cycles {
+            for (name, mut cycle) in cycles(setup).expect("terminals and connections") {
                 // A bus arms itself first; and a busy machine may stop us for longer than a peer waits.
                 let went_well = (0..20).any(|_| cycle.run().is_ok());
                 assert!(went_well, "{name}, {way:?}: the cycle never comes about");

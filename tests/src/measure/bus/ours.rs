@@ -1,6 +1,6 @@
 //! The player's bus as it is.
 
-use super::far::Far;
+use super::far::{Far, Link};
 use super::{Boxed, Cycle, Setup, Way};
 use anyhow::{Context, ensure};
 use device::MonotonicClock;
@@ -20,8 +20,8 @@ struct OnBus {
     _far: Far,
 }
 
-pub(super) fn cycle(setup: Setup) -> anyhow::Result<Boxed> {
-    let far = Far::start(&[setup])?;
+pub(super) fn cycle(setup: Setup, link: Link) -> anyhow::Result<Boxed> {
+    let far = Far::start(link, &[setup])?;
     let path = far.paths().first().context("one bus")?;
     Ok(Box::new(OnBus {
         bus: bus(setup, path)?,

@@ -72,7 +72,7 @@ pub(super) fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
         (Way::Fast, 4_000_000, 5),
     ] {
         let setup = Setup { servos, baud, way };
-        let far = Far::start_linked(Link::Tcp, &[setup; BUSES])?;
+        let far = Far::start(Link::Tcp, &[setup; BUSES])?;
         let mut buses = Vec::new();
         for path in far.paths() {
             buses.push(Driven {

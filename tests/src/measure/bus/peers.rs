@@ -1,8 +1,10 @@
 //! Two peers, through their own interfaces.
 
-use super::far::Far;
+use super::far::{Far, Link};
 use super::{Boxed, Cycle, Setup, Way};
+use crate::measure::port::AsPort;
 use anyhow::{Context, anyhow, ensure};
+use device::{MonotonicClock, transport};
 use dynamixel2::instructions::SyncWriteData;
 use rustypot::DynamixelProtocolHandler;
 use serialport::SerialPort;
@@ -19,30 +21,33 @@ const BUFFER_BYTES: usize = 1024;
 /// How long `rustypot` waits for an answer; `dynamixel2` always adds 34 ms.
 const ANSWER_MAX: Duration = Duration::from_millis(34);
 
-/// Who can do what the setup asks for.
-pub(crate) fn cycles(setup: Setup) -> anyhow::Result<Vec<(&'static str, Boxed)>> {
-    cycles_with(setup, None)
-}
-
-/// The same of six servos by sync read of which one does not answer.
+/// Six servos by sync read of which one does not answer, each peer on the terminal it would open.
 pub(crate) fn with_an_absent_servo() -> anyhow::Result<Vec<(&'static str, Boxed)>> {
     let setup = Setup {
         servos: 6,
         baud: 1_000_000,
         way: Way::Sync,
     };
-    cycles_with(setup, Some("servo 2 silent"))
+    let far = || Far::start_with(Link::Terminal, &[setup], Some("servo 2 silent"));
+    Ok(vec![
+        (
+            "rustypot",
+            Box::new(Rustypot::open(setup, Link::Terminal, far()?)?),
+        ),
+        ("dynamixel2", Box::new(Dynamixel2::open(setup, far()?)?)),
+    ])
 }
 
-fn cycles_with(setup: Setup, fault: Option<&str>) -> anyhow::Result<Vec<(&'static str, Boxed)>> {
-    let rustypot: Boxed = Box::new(Rustypot::open(setup, Far::start_with(&[setup], fault)?)?);
-    let mut cycles = vec![("rustypot", rustypot)];
-    // It has neither fast reads nor Feetech.
-    if setup.way == Way::Sync {
-        let peer: Boxed = Box::new(Dynamixel2::open(setup, Far::start_with(&[setup], fault)?)?);
-        cycles.push(("dynamixel2", peer));
-    }
-    Ok(cycles)
+/// It takes any port, so also one that is a connection.
+pub(super) fn rustypot(setup: Setup, link: Link) -> anyhow::Result<Boxed> {
+    let far = Far::start(link, &[setup])?;
+    Ok(Box::new(Rustypot::open(setup, link, far)?))
+}
+
+/// It opens terminals alone, and has neither fast reads nor Feetech.
+pub(super) fn dynamixel2(setup: Setup) -> anyhow::Result<Boxed> {
+    let far = Far::start(Link::Terminal, &[setup])?;
+    Ok(Box::new(Dynamixel2::open(setup, far)?))
 }
 
 struct Dynamixel2 {
@@ -97,8 +102,15 @@ struct Rustypot {
 }
 
 impl Rustypot {
-    fn open(setup: Setup, far: Far) -> anyhow::Result<Self> {
+    fn open(setup: Setup, link: Link, far: Far) -> anyhow::Result<Self> {
         let path = far.paths().first().context("one bus")?;
+        let port: Box<dyn SerialPort> = match link {
+            Link::Terminal => serialport::new(path, setup.baud).timeout(ANSWER_MAX).open()?,
+            Link::Tcp => {
+                let line = transport::open(&path.parse()?, setup.baud)?;
+                Box::new(AsPort::new(line, MonotonicClock::new(), setup.baud, ANSWER_MAX))
+            }
+        };
         let sts = setup.way == Way::Sts;
         Ok(Self {
             protocol: if sts {
@@ -106,7 +118,7 @@ impl Rustypot {
             } else {
                 DynamixelProtocolHandler::v2()
             },
-            port: serialport::new(path, setup.baud).timeout(ANSWER_MAX).open()?,
+            port,
             ids: (1..=setup.servos).collect(),
             places: if sts { STS_PLACES } else { X_PLACES },
             width: if sts { 2 } else { 4 },

@@ -11,7 +11,6 @@
 
 mod ours;
 mod peers;
-mod port;
 
 use super::{Row, Subject, Tell, median, repeated};
 use crate::simulated::{Line, Served, bus_of};

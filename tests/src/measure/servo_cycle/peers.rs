@@ -1,7 +1,7 @@
 //! Two peers, through their own interfaces. `dynamixel2` needs a terminal; `rustypot` takes any serial port.
 
-use super::port::FarEnd;
 use super::{BAUD, Boxed, Cycle, SERVOS, TICK, line, served};
+use crate::measure::port::AsPort;
 use crate::simulated::{POSITION, Served};
 use anyhow::{anyhow, ensure};
 use device::MonotonicClock;
@@ -87,7 +87,8 @@ pub(super) fn rustypot_pty(block: u16) -> anyhow::Result<Boxed> {
 }
 
 pub(super) fn rustypot_memory(clock: MonotonicClock, block: u16) -> Boxed {
-    rustypot(Box::new(FarEnd::new(line(clock), clock, ANSWER_MAX)), block, None)
+    let port = AsPort::new(Box::new(line(clock)), clock, BAUD, ANSWER_MAX);
+    rustypot(Box::new(port), block, None)
 }
 
 fn rustypot(port: Box<dyn SerialPort>, block: u16, served: Option<Served<ServoBus>>) -> Boxed {

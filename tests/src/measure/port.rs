@@ -1,15 +1,14 @@
-//! A simulated bus in the same thread as a `serialport` port, for programs that want one of those.
+//! Any line as a `serialport` port, for programs that want one of those.
 
-use crate::simulated::Line;
-use device::{Clock, MonotonicClock, Transport};
-use firmware_sim::ServoBus;
+use device::transport::Transport;
+use device::{Clock, MonotonicClock};
 use serialport::{ClearBuffer, DataBits, FlowControl, Parity, Result, SerialPort, StopBits};
 use std::io;
 use std::time::Duration;
 
-/// The host's end of the line.
-pub(super) struct FarEnd {
-    line: Line<ServoBus>,
+/// The host's end of a line.
+pub(super) struct AsPort {
+    line: Box<dyn Transport>,
     clock: MonotonicClock,
     timeout: Duration,
     baud: u32,
@@ -17,13 +16,13 @@ pub(super) struct FarEnd {
     waiting: Vec<u8>,
 }
 
-impl FarEnd {
-    pub(super) fn new(line: Line<ServoBus>, clock: MonotonicClock, timeout: Duration) -> Self {
+impl AsPort {
+    pub(super) fn new(line: Box<dyn Transport>, clock: MonotonicClock, baud: u32, timeout: Duration) -> Self {
         Self {
             line,
             clock,
             timeout,
-            baud: super::BAUD,
+            baud,
             waiting: Vec::new(),
         }
     }
@@ -37,11 +36,15 @@ impl FarEnd {
             }
             self.waiting
                 .extend_from_slice(chunk.get(..count).unwrap_or_default());
+            // Most often that was all; whoever waits for more asks again.
+            if count < chunk.len() {
+                return Ok(());
+            }
         }
     }
 }
 
-impl io::Read for FarEnd {
+impl io::Read for AsPort {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.waiting.is_empty() {
             let until = self.clock.now().after(self.timeout);
@@ -59,7 +62,7 @@ impl io::Read for FarEnd {
     }
 }
 
-impl io::Write for FarEnd {
+impl io::Write for AsPort {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.line.write(bytes).map_err(io::Error::other)?;
         Ok(bytes.len())
@@ -70,8 +73,8 @@ impl io::Write for FarEnd {
     }
 }
 
-/// What a line in memory has of a serial port: a speed, a time limit and bytes. The rest is as it always is.
-impl SerialPort for FarEnd {
+/// What any line has of a serial port: a speed, a time limit and bytes. The rest is as it always is.
+impl SerialPort for AsPort {
     fn name(&self) -> Option<String> {
         None
     }
@@ -165,7 +168,7 @@ impl SerialPort for FarEnd {
     }
 
     fn try_clone(&self) -> Result<Box<dyn SerialPort>> {
-        let message = "a simulated line has one end";
+        let message = "the line has one end";
         Err(io::Error::new(io::ErrorKind::Unsupported, message).into())
     }
 
