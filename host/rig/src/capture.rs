@@ -107,11 +107,11 @@ pub struct Capture {
 }
 
 impl Capture {
-    /// Opens the device as its profile says, and the file beside `place`.
+    /// Opens the device as its profile says, or as [`Listener::open`] recognises it, and the file beside `place`.
     pub fn open(
         ports: &mut dyn Ports,
         address: &str,
-        profile: &str,
+        profile: Option<&str>,
         profiles: &Profiles,
         clock: Arc<dyn Clock>,
         place: &Path,
@@ -128,6 +128,11 @@ impl Capture {
         part.push(".part");
         let part = PathBuf::from(part);
         let out = File::create(&part).map_err(|source| file_error(&part, source))?;
+        let head = Head {
+            profile: Some(listener.profile().to_owned()).filter(|key| !key.is_empty()),
+            source: Some(format!("captured from {address}")),
+            ..Head::default()
+        };
         let mut capture = Self {
             listener,
             passing,
@@ -139,11 +144,6 @@ impl Capture {
             latest: Duration::ZERO,
             records: 0,
             text: String::new(),
-        };
-        let head = Head {
-            profile: Some(profile.to_owned()),
-            source: Some(format!("captured from {address}")),
-            ..Head::default()
         };
         capture.text = exchange::write(&Exchange {
             head,

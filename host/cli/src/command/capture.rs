@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use bench::SimPorts;
 use bench::world::Equipment;
-use rig::WithBench;
 use rig::capture::{Capture, CaptureError};
+use rig::{SystemPorts, WithBench};
 
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
@@ -16,6 +16,7 @@ use crate::{number, setup};
 
 const EXAMPLES: &str = "\
 Examples:
+  dialrig capture /dev/hidraw0 --out knob.txt
   dialrig capture /dev/ttyUSB0 --out box.txt
   dialrig capture sim:tablet --profile graphire-serial --out pen.txt --secs 10";
 
@@ -34,9 +35,9 @@ pub(crate) struct Args {
     /// Where it is written
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Profile of the device; `sgi-dialbox` when left out
-    #[arg(long, value_name = "NAME", default_value = "sgi-dialbox")]
-    profile: String,
+    /// Profile of the device; what it is recognised as when left out, `sgi-dialbox` on a line that does not say
+    #[arg(long, value_name = "NAME")]
+    profile: Option<String>,
     /// For how long; until Ctrl-C when left out
     #[arg(long, value_name = "N", value_parser = number::positive)]
     secs: Option<f64>,
@@ -49,12 +50,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let stand = Equipment::default()
         .stand(Arc::clone(&clock), &profiles)
         .map_err(|error| refused(&error))?;
-    let mut ports = WithBench::new(Box::new(SimPorts::new(stand)));
+    let system = SystemPorts::knowing(Arc::clone(&clock), Arc::clone(&profiles), None);
+    let mut ports = WithBench::beside(Box::new(SimPorts::new(stand)), system);
     let interrupt = Interrupt::listen();
     let mut capture = Capture::open(
         &mut ports,
         &args.device,
-        &args.profile,
+        args.profile.as_deref(),
         &profiles,
         clock,
         &args.out,

@@ -16,6 +16,7 @@ use crate::setup;
 
 const EXAMPLES: &str = "\
 Examples:
+  dialrig monitor /dev/hidraw0
   dialrig monitor /dev/ttyUSB0 --profile sgi-dialbox
   dialrig monitor /tmp/tablet --profile graphire-serial --json";
 
@@ -30,9 +31,9 @@ const PATIENCE: Duration = Duration::from_millis(100);
 pub(crate) struct Args {
     /// A device path, tcp:HOST:PORT, usb:SERIAL or sim:NAME
     device: String,
-    /// Profile of a dial box or tablet; `sgi-dialbox` when left out
-    #[arg(long, value_name = "NAME", default_value = "sgi-dialbox")]
-    profile: String,
+    /// Profile of the device; what it is recognised as when left out, `sgi-dialbox` on a line that does not say
+    #[arg(long, value_name = "NAME")]
+    profile: Option<String>,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
@@ -43,8 +44,19 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         .map_err(|error| Failure::refused(error.to_string()))?;
     let system = SystemPorts::knowing(Arc::clone(&clock), Arc::clone(&profiles), None);
     let mut ports = WithBench::beside(Box::new(SimPorts::new(stand)), system);
-    let mut listener = Listener::open(&mut ports, &args.device, &args.profile, &profiles, clock)
-        .map_err(|error| Failure::refused(error.to_string()))?;
+    let mut listener = Listener::open(
+        &mut ports,
+        &args.device,
+        args.profile.as_deref(),
+        &profiles,
+        clock,
+    )
+    .map_err(|error| Failure::refused(error.to_string()))?;
+    if args.profile.is_none() {
+        let known = Some(listener.profile()).filter(|key| !key.is_empty());
+        let taken = known.unwrap_or("a device of its own description");
+        console.remark(format_args!("{} is heard as {taken}", args.device));
+    }
     let interrupt = Interrupt::listen();
     let mut lines = EventLines::new(console, listener.teller());
     let mut ended = Ok(());
