@@ -1,15 +1,18 @@
 //! A HID device by its node: reports in and out, feature reports, report descriptor, USB strings.
 //!
 //! Two threads a device: one reads and notes arrivals, one does what may block. Each has the node open for itself;
-//! the kernel gives every reader all reports. Source: Linux `Documentation/hid/hidraw.rst`.
+//! the kernel gives every reader all reports. Reading is done here, since the HID library gives up as soon as a device is
+//! gone, with the reports untaken that came before. Source: Linux `Documentation/hid/hidraw.rst`, `drivers/hid/hidraw.c`
+//! (`hidraw_read` hands out what waits before it says that there is no device).
 
 use super::errands::{Errands, Question, Talking};
 use super::intake::{Intake, Reading, gone};
 use super::usb::UsbStrings;
-use super::{Boundary, Transport, TransportError};
+use super::{Boundary, Transport, TransportError, descriptor};
 use crate::clock::{Clock, Instant};
 use crate::transport::adapter::UsbPlace;
 use hidapi::{HidApi, HidDevice, HidError};
+use rustix::fd::{AsFd, OwnedFd};
 use rustix::fs::{Mode, OFlags};
 use std::ffi::CString;
 use std::io;
@@ -39,10 +42,9 @@ pub fn open(
 ) -> Result<HidTransport, TransportError> {
     // The library says in words why it could not open something; the system says it by a number that can be sorted.
     let flags = OFlags::RDWR | OFlags::NONBLOCK | OFlags::CLOEXEC;
-    rustix::fs::open(path, flags, Mode::empty())
+    let reader = rustix::fs::open(path, flags, Mode::empty())
         .map_err(|e| TransportError::from_io(path, HID_HINT, e.into()))?;
     let api = HidApi::new().map_err(|e| refusal(path, "the HID library did not start", &e))?;
-    let reader = open_node(&api, path)?;
     let talker = open_node(&api, path)?;
     let mut descriptor = vec![0; DESCRIPTOR_BYTES_MAX];
     let length = talker
@@ -84,14 +86,11 @@ fn refusal(address: &str, what: &str, error: &HidError) -> TransportError {
     }
 }
 
-struct Listening(HidDevice);
+struct Listening(OwnedFd);
 
 impl Reading for Listening {
     fn read(&mut self, buffer: &mut [u8], limit: Duration) -> io::Result<usize> {
-        let ms = i32::try_from(limit.as_millis()).unwrap_or(i32::MAX);
-        self.0
-            .read_timeout(buffer, ms)
-            .map_err(|error| io::Error::new(io::ErrorKind::BrokenPipe, error.to_string()))
+        descriptor::read_within(self.0.as_fd(), buffer, limit)
     }
 }
 
