@@ -1,5 +1,5 @@
 //! Profiles as people and programs look at them: a list, one as text, what is wrong with a new one, the rules that
-//! grant the right to open what they describe.
+//! grant the right to open what they describe, and the options by which the kernel shows it.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::document::Findings;
 use crate::document::check::check_file;
 use crate::document::fault::FileError;
 
-pub use device::discovery::{RULES_FILE, rules};
+pub use device::discovery::{MODPROBE_FILE, RULES_FILE, module_options, rules};
 
 /// One profile in a list.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -53,7 +53,9 @@ pub(crate) fn survey(places: &Places, profiles: &Profiles, strings: &mut Strings
             beside: Vec::new(),
         }
     });
-    joined(surveyed.collect())
+    // Of devices without a node only those concern anybody that a profile knows.
+    let concerns = |one: &Surveyed| one.found.access != Access::Nodeless || !one.matches.is_empty();
+    joined(surveyed.filter(concerns).collect())
 }
 
 /// Keys that fit, whether that is certain, why not.
@@ -116,6 +118,8 @@ pub(crate) fn allowed(found: &discovery::Found) -> Result<(), String> {
     match (found.access, found.bus) {
         (Access::Allowed, _) => Ok(()),
         (Access::NotYet, _) => Err("its node is not there yet; the system is still making it".to_owned()),
+        (Access::Nodeless, _) => Err(discovery::nodeless_remedy(found)),
+        (Access::Forbidden, Bus::Midi) => Err(device::transport::midi_raw::MIDI_HINT.to_owned()),
         (Access::Forbidden, Bus::Serial) => Err(ports::PERMISSION_HINT.to_owned()),
         (Access::Forbidden, _) => Err(device::transport::hid::HID_HINT.to_owned()),
     }

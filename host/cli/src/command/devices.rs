@@ -1,13 +1,13 @@
 //! `dialrig devices`: everything found, and what is known about it.
 
-use std::io::Write as _;
-use std::path::Path;
+mod install;
+
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use bench::SimPorts;
 use bench::world::Equipment;
-use rig::profile_look::{RULES_FILE, rules};
 use rig::{Found, Ports, SystemPorts};
 use serde::Serialize;
 
@@ -36,12 +36,16 @@ pub(crate) struct Args {
     /// Goes on, telling what comes and goes, until Ctrl-C
     #[arg(long)]
     watch: bool,
-    /// Writes the udev rules for all devices that are known; only root may
+    /// Writes the udev rules for all devices that are known, and the module options without which the kernel shows some
+    /// of them to nobody; only root may
     #[arg(long, conflicts_with = "watch")]
     install_rules: bool,
-    /// Writes the rules here instead
+    /// Writes the rules here instead, and the module options only where they are asked for
     #[arg(long, value_name = "FILE", requires = "install_rules")]
-    rules_file: Option<std::path::PathBuf>,
+    rules_file: Option<PathBuf>,
+    /// Writes the module options here instead, and the rules only where they are asked for
+    #[arg(long, value_name = "FILE", requires = "install_rules")]
+    modprobe_file: Option<PathBuf>,
 }
 
 #[derive(Serialize)]
@@ -64,8 +68,7 @@ struct Record<'a> {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     if args.install_rules {
-        let file = args.rules_file.as_deref().unwrap_or(Path::new(RULES_FILE));
-        return install_rules(file, console);
+        return install::run(args.rules_file.as_deref(), args.modprobe_file.as_deref(), console);
     }
     let mut ports = Everything::new()?;
     let mut found = ports.list();
@@ -112,6 +115,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
 /// Why nothing is taken, and who is in the way.
 fn notes(port: &Found) -> impl Iterator<Item = &str> {
     let held = port.held.as_ref().map(|held| held.remedy.as_str());
+    // Whoever keeps it from being opened at all was named there.
+    let held = held.filter(|remedy| port.allowed.as_ref().err().map(String::as_str) != Some(remedy));
     port.why.as_deref().into_iter().chain(held)
 }
 
@@ -196,31 +201,4 @@ fn tell(console: &Console, change: Option<&str>, port: &Found) -> Result<(), Fai
         line = format!("{line}; {note}");
     }
     console.line(line)
-}
-
-/// Writes the rules, or says where they would go and prints them.
-fn install_rules(file: &Path, console: &Console) -> Result<Exit, Failure> {
-    let text = rules(&*setup::profiles()?);
-    let written = std::fs::File::create(file).and_then(|mut out| {
-        out.write_all(text.as_bytes())?;
-        out.sync_all()
-    });
-    match written {
-        Ok(()) => {
-            console.remark(format_args!(
-                "{} is written; to have it at once: `udevadm control --reload && udevadm trigger`, then plug devices out and in",
-                file.display()
-            ));
-            Ok(Exit::Done)
-        }
-        Err(error) => {
-            console.line(text.trim_end())?;
-            let message = format!("{}: {error}; the rules were printed instead", file.display());
-            Err(Failure::refused(message).with_hint(format!(
-                "only root may write there: `sudo dialrig devices --install-rules`, or put them there by hand: \
-                 `dialrig devices --install-rules 2>/dev/null | sudo tee {}`",
-                file.display()
-            )))
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! Drivers and programs that have a device already.
 
-use super::{Found, Places};
+use super::{Access, Found, Places, nodeless_remedy};
 use device_profiles::Bus;
 
 /// Somebody who has the device, and what that does.
@@ -19,12 +19,18 @@ const DRIVERS: [(&str, &str); 2] = [("uclogic", "hid_uclogic"), ("wacom", "wacom
 /// Who holds a device, as far as the system tells.
 pub fn holder(found: &Found, places: &Places) -> Option<Holder> {
     let driver = found.driver.as_deref()?;
+    if found.access == Access::Nodeless {
+        return (driver != "usbhid").then(|| Holder {
+            name: driver.to_owned(),
+            remedy: nodeless_remedy(found),
+        });
+    }
     if let Some((name, module)) = DRIVERS.iter().find(|(name, _)| *name == driver) {
         return Some(Holder {
             name: (*module).to_owned(),
             remedy: format!(
                 "the kernel's {module} has it and changes its mode: both get reports, and they may be in another form; to have it \
-                 alone, as root: `echo blacklist {module} > /etc/modprobe.d/dialrig.conf && rmmod {module}` (driver \"{name}\"), then \
+                 alone, as root: `echo blacklist {module} > /etc/modprobe.d/no-{module}.conf && rmmod {module}` (driver \"{name}\"), then \
                  plug it out and in"
             ),
         });

@@ -13,6 +13,8 @@ pub enum Access {
     Forbidden,
     /// The node is not there yet: the system is still making it.
     NotYet,
+    /// The kernel makes no node for it ([`super::nodeless_remedy`]); what it is is known by its ids alone.
+    Nodeless,
 }
 
 /// A device's interface, or a port.

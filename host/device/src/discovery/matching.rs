@@ -1,6 +1,6 @@
 //! Which profile a device is: on data only.
 
-use super::Found;
+use super::{Access, Found};
 use crate::codec::outline::ReportKind;
 use device_profiles::{Bus, InputProfile, Match, Profiles};
 
@@ -126,6 +126,11 @@ fn fit(m: &Match, found: &Found, string: &mut dyn FnMut(u8) -> Result<String, St
     let same = |wanted: Option<u16>, there: Option<u16>| wanted.is_none_or(|wanted| there == Some(wanted));
     if !same(m.vendor, found.vendor) || !same(m.product, found.product) {
         return Err(far());
+    }
+    if found.access == Access::Nodeless {
+        // Nothing but its ids can be seen.
+        let by_ids = m.vendor.is_some() && m.product.is_some();
+        return if by_ids { Ok(Rank::default()) } else { Err(far()) };
     }
     // Whoever names only a vendor, or nothing, is not near to all of his products.
     let near = m.product.is_some();

@@ -10,6 +10,7 @@ mod drivers;
 mod found;
 mod matching;
 mod midi;
+mod nodeless;
 mod open;
 mod rules;
 mod strings;
@@ -18,6 +19,7 @@ mod sysfs;
 pub use drivers::{Holder, holder};
 pub use found::{Access, Found};
 pub use matching::{Verdict, judge};
+pub use nodeless::{MODPROBE_FILE, module_options, remedy as nodeless_remedy};
 pub use open::open;
 pub use rules::{RULES_FILE, rules};
 pub use strings::Strings;
@@ -47,9 +49,11 @@ impl Default for Places {
     }
 }
 
-/// All HID devices, MIDI nodes and serial ports, in the order of their addresses. Nothing is opened.
+/// All HID devices, MIDI nodes and serial ports, in the order of their addresses; also HID devices that the kernel
+/// gives no node to, by the address of their interface. Nothing is opened.
 pub fn list(places: &Places) -> Vec<Found> {
     let mut found = sysfs::hid(&places.sys, &places.dev);
+    found.extend(nodeless::devices(places, &found));
     found.extend(midi::nodes(places));
     found.extend(ports::list().into_iter().map(|port| serial(port, &places.sys)));
     found.sort_by(|a, b| a.address.cmp(&b.address));

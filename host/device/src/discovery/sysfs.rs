@@ -126,7 +126,7 @@ pub(super) fn text(file: &Path) -> Option<String> {
     (!text.is_empty()).then_some(text)
 }
 
-fn link_name(link: &Path) -> Option<String> {
+pub(super) fn link_name(link: &Path) -> Option<String> {
     link_or_name(&std::fs::canonicalize(link).ok()?)
 }
 

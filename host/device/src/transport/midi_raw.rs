@@ -15,8 +15,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Debian, Fedora and their kin give sound devices to `audio` and to whoever sits at the screen.
-const HINT: &str =
+/// What grants the right to open a node: Debian, Fedora and their kin give sound devices to `audio` and to whoever
+/// sits at the screen.
+pub const MIDI_HINT: &str =
     "add yourself to the group of the sound devices (`sudo usermod -aG audio $USER`) and log in again";
 
 /// An open node.
@@ -39,7 +40,7 @@ pub fn is_node(path: &str) -> bool {
 
 /// Opens a node; arrivals are noted by `clock`.
 pub fn open(path: &str, clock: Arc<dyn Clock>) -> Result<MidiRaw, TransportError> {
-    let sort = |e: Errno| TransportError::from_io(path, HINT, e.into());
+    let sort = |e: Errno| TransportError::from_io(path, MIDI_HINT, e.into());
     let opened =
         |flags: OFlags| rustix::fs::open(path, flags | OFlags::NONBLOCK | OFlags::CLOEXEC, Mode::empty());
     // The kernel answers "no such device" where a direction is missing.
@@ -89,7 +90,8 @@ impl Transport for MidiRaw {
 
     fn write(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
         let Some(out) = &self.out else { return Ok(()) };
-        descriptor::write(out.as_fd(), bytes).map_err(|e| TransportError::from_io(&self.address, HINT, e))
+        descriptor::write(out.as_fd(), bytes)
+            .map_err(|e| TransportError::from_io(&self.address, MIDI_HINT, e))
     }
 
     fn arrived(&self) -> Option<Instant> {

@@ -96,7 +96,14 @@ impl Inputs {
         seat.come_back(found, now);
         let Some(taken) = &seat.taken else { return };
         if let (Some(rule), false) = (&taken.rule, taken.settling(now)) {
-            let health = DeviceHealth::Forbidden { rule: rule.clone() };
+            // Whoever holds it may be the reason why it cannot be opened at all.
+            let holder = found.held.as_ref().filter(|held| held.remedy == *rule);
+            let health = match holder {
+                Some(held) => DeviceHealth::Held {
+                    driver: format!("the kernel's driver {}", held.driver),
+                },
+                None => DeviceHealth::Forbidden { rule: rule.clone() },
+            };
             if seat.health != health {
                 noticed(Change::Absent(seat.spec.name.clone(), rule.clone()));
                 seat.health = health;
