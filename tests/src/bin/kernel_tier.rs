@@ -4,17 +4,10 @@
 use std::process::ExitCode;
 
 use dialrig_tests::kernel::cable::Watch;
-use dialrig_tests::kernel::host::TRY_OPEN;
-use dialrig_tests::kernel::tier::{CLAIMS, try_open};
+use dialrig_tests::kernel::tier::CLAIMS;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    if let [first, address] = &words[..]
-        && first == TRY_OPEN
-    {
-        println!("{}", try_open(address));
-        return ExitCode::SUCCESS;
-    }
     let watch = Watch::start();
     let (mut passed, mut failed) = (0, 0);
     for claim in CLAIMS.iter().copied().flatten() {

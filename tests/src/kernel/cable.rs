@@ -7,6 +7,7 @@ use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::os::fd::AsRawFd;
 use std::os::unix::net::UnixStream;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -21,6 +22,11 @@ use super::usbip::{self, Imported, Inbox, Message, Submit};
 /// Where `vhci_hcd` is told of devices.
 const ATTACH: &str = "/sys/devices/platform/vhci_hcd.0/attach";
 const STATUS: &str = "/sys/devices/platform/vhci_hcd.0/status";
+const CONTROLLER: &str = "/sys/devices/platform/vhci_hcd.0";
+/// Speed of the root hub that takes full-speed devices, as the kernel writes it.
+const HUB_SPEED: &str = "480";
+/// How long the kernel may take to forget a device whose cable was pulled.
+const FORGETS_IN: Duration = Duration::from_secs(30);
 /// How long a transfer may wait for data that is there: a poll of a full-speed bus.
 const LOOK_NS: i64 = 500_000;
 const GET_DESCRIPTOR: u8 = 6;
@@ -63,7 +69,7 @@ struct Shared<F> {
     stop: AtomicBool,
 }
 
-/// A function on the kernel's bus. Dropping it pulls the cable.
+/// A function on the kernel's bus. Dropping it pulls the cable, and returns when the kernel has forgotten the device.
 pub struct Cable<F: Function + 'static> {
     shared: Arc<Shared<F>>,
     watch: Watch,
@@ -138,8 +144,23 @@ fn serve<F: Function>(shared: &Shared<F>, device: u32, watch: &Watch) {
     }
 }
 
-/// One stay on the bus.
+/// One stay on the bus, until the kernel has forgotten the device: what comes next must not find what was before.
 fn attend<F: Function>(shared: &Shared<F>, device: u32, arrival: u32, watch: &Watch) -> io::Result<()> {
+    let (far, port) = import(shared, device)?;
+    let stayed = stay(shared, arrival, far, watch);
+    let place = place_of(port)?;
+    let until_us = watch.now_us() + FORGETS_IN.as_micros() as u64;
+    while place.exists() {
+        if watch.now_us() > until_us {
+            return Err(io::Error::other(format!("{} is still there", place.display())));
+        }
+        watch.pause(Duration::from_millis(2));
+    }
+    stayed
+}
+
+/// Gives the kernel one end of a socket; the other end, and the port it has put the device at.
+fn import<F: Function>(shared: &Shared<F>, device: u32) -> io::Result<(UnixStream, u32)> {
     let (near, mut far) = UnixStream::pair()?;
     let (ids, interfaces) = {
         let function = lock(&shared.function);
@@ -153,9 +174,30 @@ fn attend<F: Function>(shared: &Shared<F>, device: u32, arrival: u32, watch: &Wa
     };
     let importing = std::thread::spawn(move || hand_over(near, device));
     usbip::export(&mut far, who)?;
-    importing
+    let port = importing
         .join()
         .map_err(|_| io::Error::other("the import ended badly"))??;
+    Ok((far, port))
+}
+
+/// Where the kernel describes what is at a port of the virtual hub.
+fn place_of(port: u32) -> io::Result<PathBuf> {
+    for entry in std::fs::read_dir(CONTROLLER)? {
+        let hub = entry?.path();
+        let speed = std::fs::read_to_string(hub.join("speed")).unwrap_or_default();
+        let name = hub.file_name().and_then(|name| name.to_str());
+        if let Some(bus) = name.and_then(|name| name.strip_prefix("usb"))
+            && speed.trim() == HUB_SPEED
+        {
+            // Ports of a hub are counted from 1, those of the controller from 0.
+            return Ok(hub.join(format!("{bus}-{}", port + 1)));
+        }
+    }
+    Err(io::Error::other("the virtual controller has no root hub"))
+}
+
+/// Serves the device's transfers as long as its cable is in.
+fn stay<F: Function>(shared: &Shared<F>, arrival: u32, far: UnixStream, watch: &Watch) -> io::Result<()> {
     far.set_nonblocking(true)?;
     let mut link = Link {
         far,
@@ -186,27 +228,27 @@ fn attend<F: Function>(shared: &Shared<F>, device: u32, arrival: u32, watch: &Wa
 }
 
 /// Imports the device and gives the socket to the kernel, which keeps it.
-fn hand_over(mut near: UnixStream, device: u32) -> io::Result<()> {
+fn hand_over(mut near: UnixStream, device: u32) -> io::Result<u32> {
     let (id, speed) = usbip::import(&mut near, device)?;
     let _one_at_a_time = PORTS.lock().unwrap_or_else(PoisonError::into_inner);
     let port = free_port()?;
-    std::fs::write(ATTACH, format!("{port} {} {id} {speed}", near.as_raw_fd()))
+    std::fs::write(ATTACH, format!("{port} {} {id} {speed}", near.as_raw_fd()))?;
+    Ok(port)
 }
 
 /// One thread at a time may look for a port and take it.
 static PORTS: Mutex<()> = Mutex::new(());
 
 /// The first free port of the full-speed hub.
-fn free_port() -> io::Result<String> {
+fn free_port() -> io::Result<u32> {
     let status = std::fs::read_to_string(STATUS)?;
     // "hs  0000 004 000 ...": hub, port, and 004 for a port with nothing on it.
     let free = status.lines().find_map(|line| {
         let mut words = line.split_whitespace();
         let (hub, port, state) = (words.next()?, words.next()?, words.next()?);
-        (hub == "hs" && state == "004").then(|| port.trim_start_matches('0').to_owned())
+        (hub == "hs" && state == "004").then(|| port.parse().ok())?
     });
-    let port = free.ok_or_else(|| io::Error::other("every port of the virtual hub is taken"))?;
-    Ok(if port.is_empty() { "0".to_owned() } else { port })
+    free.ok_or_else(|| io::Error::other("every port of the virtual hub is taken"))
 }
 
 /// A device's end of the socket.

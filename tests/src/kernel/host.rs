@@ -50,19 +50,6 @@ pub fn run(arguments: &[&str], as_nobody: bool) -> anyhow::Result<Said> {
     })
 }
 
-/// What a user without rights is told when the host's own code opens `address` for him.
-pub fn try_open_as_nobody(address: &str) -> anyhow::Result<String> {
-    let output = Command::new(std::env::current_exe()?)
-        .args([TRY_OPEN, address])
-        .uid(NOBODY)
-        .gid(NOBODY)
-        .output()?;
-    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
-}
-
-/// Argument by which this program opens a device and says what came of it.
-pub const TRY_OPEN: &str = "--try-open";
-
 /// The records of `devices --json`.
 pub fn devices(as_nobody: bool) -> anyhow::Result<Vec<Value>> {
     let said = run(&["devices", "--json"], as_nobody)?;
@@ -121,6 +108,31 @@ impl Lines {
         self.lines.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Waits until `holds` of all lines so far: nothing then, or why it never will or did not in time.
+    fn wait(
+        &self,
+        watch: &Watch,
+        limit: Duration,
+        mut holds: impl FnMut(&[String]) -> bool,
+    ) -> Option<&'static str> {
+        let until_us = watch.now_us() + limit.as_micros() as u64;
+        let mut lines = self.lock();
+        loop {
+            if holds(&lines.0) {
+                return None;
+            }
+            if lines.1 {
+                return Some("it has ended");
+            }
+            let left_us = until_us.saturating_sub(watch.now_us());
+            if left_us == 0 {
+                return Some("the time is over");
+            }
+            let waited = self.more.wait_timeout(lines, Duration::from_micros(left_us));
+            lines = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+
     fn follow(self: &Arc<Self>, from: impl Read + Send + 'static) {
         let lines = Arc::clone(self);
         std::thread::spawn(move || {
@@ -139,6 +151,7 @@ pub struct Running {
     child: Child,
     out: Arc<Lines>,
     err: Arc<Lines>,
+    watch: Watch,
 }
 
 impl Running {
@@ -156,60 +169,79 @@ impl Running {
         if let Some(pipe) = child.stderr.take() {
             err.follow(pipe);
         }
-        Ok(Self { child, out, err })
+        let watch = Watch::start();
+        Ok(Self {
+            child,
+            out,
+            err,
+            watch,
+        })
     }
 
-    /// Waits until a predicate holds of all JSON lines so far, which it gets; their final state, or what there was.
+    /// Waits until a predicate holds of all JSON lines so far, which it gets; their final state, or what there was. The
+    /// limit is that of the whole wait, however many lines come meanwhile.
     pub fn until(
         &self,
         limit: Duration,
         what: &str,
         mut holds: impl FnMut(&[Value]) -> bool,
     ) -> anyhow::Result<Vec<Value>> {
-        let mut records = Vec::new();
-        let mut lines = self.out.lock();
-        loop {
-            let new = lines.0.get(records.len()..).unwrap_or_default();
-            for line in new {
-                records.push(serde_json::from_str(line).with_context(|| format!("not JSON: {line}"))?);
+        let mut records: Vec<Value> = Vec::new();
+        let mut fresh = true;
+        let ended = self.out.wait(&self.watch, limit, |lines| {
+            for line in lines.get(records.len()..).unwrap_or_default() {
+                // What is no record is told as it stands.
+                records.push(serde_json::from_str(line).unwrap_or_else(|_| Value::String(line.clone())));
+                fresh = true;
             }
-            if holds(&records) {
-                return Ok(records);
-            }
-            let ended = lines.1;
-            let (next, timed_out) = self
-                .out
-                .more
-                .wait_timeout(lines, limit)
-                .unwrap_or_else(PoisonError::into_inner);
-            lines = next;
-            if ended || timed_out.timed_out() {
-                drop(lines);
-                let tail = &records[records.len().saturating_sub(8)..];
-                let said = self.errors();
-                bail!(
-                    "waited for {what}; {} lines came, last {tail:?}; said {said:?}",
-                    records.len()
-                );
-            }
+            std::mem::take(&mut fresh) && holds(&records)
+        });
+        if let Some(why) = ended {
+            let tail = &records[records.len().saturating_sub(8)..];
+            let said = self.errors();
+            bail!(
+                "waited for {what}: {why}; {} lines came, last {tail:?}; said {said:?}",
+                records.len()
+            );
+        }
+        if let Some(stray) = records.iter().find(|record| !record.is_object()) {
+            bail!("not a record: {stray}");
+        }
+        Ok(records)
+    }
+
+    /// Waits until something is said on standard error.
+    pub fn says(&self, what: &str, limit: Duration) -> anyhow::Result<()> {
+        let there = |lines: &[String]| lines.iter().any(|line| line.contains(what));
+        match self.err.wait(&self.watch, limit, there) {
+            None => Ok(()),
+            Some(why) => bail!("waited for \"{what}\": {why}; said {:?}", self.errors()),
         }
     }
 
+    /// All records, once it has ended by itself and every line of it is here.
+    pub fn all(&self, limit: Duration) -> anyhow::Result<Vec<Value>> {
+        let limit_us = self.watch.now_us() + limit.as_micros() as u64;
+        while !(self.out.lock().1 && self.err.lock().1) {
+            if self.watch.now_us() > limit_us {
+                bail!("it still runs; said {:?}", self.errors());
+            }
+            self.watch.pause(Duration::from_millis(5));
+        }
+        self.until(Duration::ZERO, "nothing", |_| true)
+    }
+
     /// Waits until a simulated device says that it was made to show this.
-    pub fn shown(&self, output: &str, value: i64) -> anyhow::Result<()> {
+    pub fn shown(&self, output: &str, value: i64, limit: Duration) -> anyhow::Result<()> {
         // The first line of a served device is no record.
         let wanted = format!("\"output\":\"{output}\",\"value\":{value}}}");
-        let mut lines = self.out.lock();
-        loop {
-            if lines.0.iter().any(|line| line.ends_with(&wanted)) {
-                return Ok(());
-            }
-            let waited = self.out.more.wait_timeout(lines, Duration::from_secs(5));
-            let (next, timed_out) = waited.unwrap_or_else(PoisonError::into_inner);
-            lines = next;
-            if timed_out.timed_out() {
-                bail!("it was to show {output} {value}, and said {:?}", lines.0);
-            }
+        let there = |lines: &[String]| lines.iter().any(|line| line.ends_with(&wanted));
+        match self.out.wait(&self.watch, limit, there) {
+            None => Ok(()),
+            Some(why) => bail!(
+                "it was to show {output} {value}: {why}; it said {:?}",
+                self.out.lock().0
+            ),
         }
     }
 
@@ -228,6 +260,14 @@ impl Running {
     /// Whether it still runs.
     pub fn runs(&mut self) -> bool {
         matches!(self.child.try_wait(), Ok(None))
+    }
+
+    /// Asks it to end, as Ctrl-C does.
+    pub fn interrupt(&self) -> anyhow::Result<()> {
+        let process = self.child.id().to_string();
+        let asked = Command::new("kill").args(["-INT", &process]).status()?;
+        anyhow::ensure!(asked.success(), "kill -INT {process}: {asked}");
+        Ok(())
     }
 
     /// Waits for its end by itself.

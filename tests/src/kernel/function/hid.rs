@@ -22,6 +22,8 @@ pub struct Hid {
     taken: Vec<Vec<u8>>,
     /// Endpoints that are asked, bit n for endpoint n.
     asked: u16,
+    /// Vendor and product instead of its own.
+    called: Option<[u16; 2]>,
 }
 
 impl Hid {
@@ -32,7 +34,14 @@ impl Hid {
             waiting: Vec::new(),
             taken: Vec::new(),
             asked: 0,
+            called: None,
         }
+    }
+
+    /// The same device under other numbers: one that nobody knows.
+    pub fn called(mut self, ids: [u16; 2]) -> Self {
+        self.called = Some(ids);
+        self
     }
 
     /// The device itself, for hands and faults.
@@ -63,7 +72,7 @@ impl Function for Hid {
 
     fn ids(&self) -> [u16; 2] {
         let facts = self.device.facts();
-        [facts.vendor, facts.product]
+        self.called.unwrap_or([facts.vendor, facts.product])
     }
 
     fn device_descriptor(&self) -> Vec<u8> {

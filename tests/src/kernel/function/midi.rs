@@ -17,6 +17,7 @@ pub struct Midi<F> {
     packer: Packer,
     ready: VecDeque<u8>,
     scratch: Vec<u8>,
+    taken: Vec<[u8; 4]>,
 }
 
 impl<F: Firmware + Send> Midi<F> {
@@ -29,7 +30,13 @@ impl<F: Firmware + Send> Midi<F> {
             packer: Packer::default(),
             ready: VecDeque::new(),
             scratch: Vec::new(),
+            taken: Vec::new(),
         }
+    }
+
+    /// Every packet the kernel has taken since the last call, in order.
+    pub fn taken(&mut self) -> Vec<[u8; 4]> {
+        std::mem::take(&mut self.taken)
     }
 
     /// The device behind it.
@@ -110,7 +117,15 @@ impl<F: Firmware + Send> Function for Midi<F> {
             }
         }
         let count = self.ready.len().min(room / 4 * 4).min(64);
-        (count > 0).then(|| self.ready.drain(..count).collect())
+        let bytes: Vec<u8> = self.ready.drain(..count).collect();
+        self.taken.extend(bytes.as_chunks::<4>().0);
+        (count > 0).then_some(bytes)
+    }
+
+    fn plugged(&mut self, _now_us: u64, _in: bool) {
+        // What nobody fetched stays in a box without power.
+        self.packer = Packer::default();
+        self.ready.clear();
     }
 }
 

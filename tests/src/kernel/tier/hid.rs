@@ -8,7 +8,7 @@ use firmware_sim::hands::{Pen, Touch, Turn};
 use firmware_sim::usb_device::Shown;
 
 use super::open::{
-    all_of, answered, drained, find_one, open, opened, plugged, quiet, reports, touch, until_gone,
+    all_of, answered, find_one, open, opened, plugged, quiet, reports, settled, touch, until_gone,
     until_open, with,
 };
 use super::{Claim, PATIENCE, same};
@@ -166,13 +166,7 @@ fn cap(watch: &Watch) -> anyhow::Result<()> {
     )?;
     touch(&cable, &push(2, 0.0))?;
     touch(&cable, &push(3, 0.0))?;
-    let rest = drained(watch, &mut *line)?;
-    let taken = cable.with(|hid, _| hid.taken());
-    same(
-        &[moved, rest].concat(),
-        &taken,
-        "reports against what the kernel took",
-    )?;
+    settled(watch, &cable, &mut *line, moved)?;
     let seen = play(
         watch,
         &cable,
@@ -248,13 +242,7 @@ fn hs610(watch: &Watch) -> anyhow::Result<()> {
             .all(|bytes| bytes[..2] == [8, 0x81] && bytes.len() == 12),
         "pen reports: {drawn:02x?}"
     );
-    let rest = drained(watch, &mut *line)?;
-    let taken = cable.with(|hid, _| hid.taken());
-    same(
-        &[drawn, rest].concat(),
-        &taken,
-        "reports against what the kernel took",
-    )?;
+    settled(watch, &cable, &mut *line, drawn)?;
     let ring = |at| (Touch::Ring { control: 0, at }, 1);
     let seen = play(
         watch,
@@ -407,5 +395,5 @@ fn by_uhid(watch: &Watch) -> anyhow::Result<()> {
         "the script's turn and press",
     )?;
     line.write(&[0, 0x42])?;
-    simulated.shown("level", 0x42)
+    simulated.shown("level", 0x42, PATIENCE)
 }

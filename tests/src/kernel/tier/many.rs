@@ -10,7 +10,7 @@ use firmware_sim::usb_device::UsbFault;
 use super::open::{
     answered, drained, find, find_one, open, opened, plugged, reports, touch, until_gone, until_open, with,
 };
-use super::{Claim, same};
+use super::{Claim, PATIENCE, same};
 use crate::kernel::cable::Watch;
 use crate::kernel::host;
 
@@ -57,20 +57,27 @@ fn unplug_under_load(watch: &Watch) -> anyhow::Result<()> {
         seen.extend(until_gone(watch, &mut *line)?);
         drop(line);
         let taken = cable.with(|hid, _| hid.taken());
-        // What the kernel took before the reader was there, or in the last moments, may be lost with the node. What came
-        // is what was sent, in its order, nothing in between left out and nothing put in.
-        let place = (0..taken.len()).find(|&from| taken[from..].starts_with(&seen));
-        let tail = place.map(|from| taken.len() - from - seen.len());
-        ensure!(
-            tail.is_some_and(|lost| lost <= 64),
-            "{} came of {} taken, found at {place:?}",
-            seen.len(),
-            taken.len()
-        );
+        whole_to_the_end(&seen, &taken)?;
         total += seen.len();
         cable.plug(true);
     }
     ensure!(total >= 75, "only {total} reports in five stays");
+    Ok(())
+}
+
+/// What was heard is what was sent: nothing in between left out, nothing put in, and to the last one, since what a node
+/// still holds when its device goes can be read. What a turning hand did in the moment of opening is the kernel's to drop
+/// (`usbhid_open`).
+pub(super) fn whole_to_the_end<T: PartialEq + std::fmt::Debug>(
+    heard: &[T],
+    sent: &[T],
+) -> anyhow::Result<()> {
+    ensure!(
+        sent.ends_with(heard) && sent.len() <= heard.len() + 64,
+        "{} came of {}: {heard:?} of {sent:?}",
+        heard.len(),
+        sent.len()
+    );
     Ok(())
 }
 
@@ -127,13 +134,21 @@ fn ten_equal(watch: &Watch) -> anyhow::Result<()> {
     for (n, cable) in cables.iter().enumerate() {
         touch(cable, &turn(n as i32 + 1, 0))?;
     }
-    watch.pause(Duration::from_millis(400));
     let mut heard = Vec::new();
-    for line in &mut lines {
-        let mut buffer = [0; 64];
-        while line.read(&mut buffer)? > 0 {
-            heard.push(buffer[1].wrapping_sub(0xFD));
+    let until_us = watch.now_us() + PATIENCE.as_micros() as u64;
+    // A little longer than until each was heard: nobody may be heard twice, or by another's line.
+    let mut all_us = None;
+    while all_us.is_none_or(|all_us| watch.now_us() < all_us + 300_000) && watch.now_us() < until_us {
+        for line in &mut lines {
+            let mut buffer = [0; 64];
+            while line.read(&mut buffer)? > 0 {
+                heard.push(buffer[1].wrapping_sub(0xFD));
+            }
         }
+        if all_us.is_none() && heard.len() >= cables.len() {
+            all_us = Some(watch.now_us());
+        }
+        watch.pause(Duration::from_millis(5));
     }
     heard.sort_unstable();
     same(&heard, &vec![1, 2, 3, 4, 5, 6, 7], "one turn of each")?;
@@ -185,11 +200,23 @@ fn no_rights(watch: &Watch) -> anyhow::Result<()> {
     let _cable = plugged("powermate", 1, watch)?;
     let found = find_one(watch, "powermate")?;
     same(&found.access, &Access::Allowed, "what root may")?;
-    let refused = host::try_open_as_nobody(&found.address)?;
-    ensure!(refused.contains("permission denied"), "{refused}");
+    let told = host::devices(true)?;
+    let record = told.iter().find(|record| host::address(record) == found.address);
+    let record = record.with_context(|| format!("{} among {told:?}", found.address))?;
     ensure!(
-        refused.contains("--install-rules"),
-        "it should name the rule: {refused}"
+        host::is_of(record, "powermate"),
+        "it is known all the same: {record}"
     );
+    same(&record["allowed"].as_bool(), &Some(false), "what he may")?;
+    let remedy = record["remedy"].as_str().unwrap_or_default();
+    ensure!(
+        remedy.contains("--install-rules"),
+        "it should name the rule: {record}"
+    );
+    let said = host::run(&["monitor", &found.address, "--json"], true)?;
+    same(&said.status.code(), &Some(1), &format!("the exit of {said:?}"))?;
+    for word in ["permission denied", "--install-rules"] {
+        ensure!(said.err.contains(word), "monitor should say \"{word}\": {said:?}");
+    }
     Ok(())
 }

@@ -1,23 +1,27 @@
 //! What is shown on the real kernel, one function a claim. Each plugs in what it needs and pulls it out again.
 
+mod boxes;
+mod feedback;
 mod hid;
 mod many;
+mod midi;
+mod monitor;
+mod nodeless;
 mod open;
+mod rig;
 mod serial;
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::ensure;
-use device::clock::{Clock, MonotonicClock};
-use device::discovery::Places;
 use serde_json::Value;
 
 use super::cable::Watch;
 use super::host::Running;
 
-/// Longest wait for anything: a software-emulated machine beside other work is slow.
-const PATIENCE: Duration = Duration::from_secs(12);
+/// Longest wait for anything. A software-emulated machine beside other work is slow; every wait ends with what it waits
+/// for, so this costs nothing where all is well.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// One claim and what shows it.
 pub struct Claim {
@@ -28,24 +32,24 @@ pub struct Claim {
 }
 
 /// All of them, in the order they are shown.
-pub const CLAIMS: &[&[Claim]] = &[hid::CLAIMS, many::CLAIMS, serial::CLAIMS];
+pub const CLAIMS: &[&[Claim]] = &[
+    hid::CLAIMS,
+    monitor::CLAIMS,
+    nodeless::CLAIMS,
+    many::CLAIMS,
+    serial::CLAIMS,
+    midi::CLAIMS,
+    feedback::CLAIMS,
+    rig::CLAIMS,
+];
 
-/// Opens a device as the host does and says what came of it.
-pub fn try_open(address: &str) -> String {
-    let clock: Arc<dyn Clock> = Arc::new(MonotonicClock::new());
-    let address = match address.parse() {
-        Ok(address) => address,
-        Err(error) => return format!("{error}"),
-    };
-    match device::discovery::open(&Places::default(), &address, None, &clock) {
-        Ok(_) => "opened".to_owned(),
-        Err(error) => error.to_string(),
-    }
-}
-
-/// A monitor of `address`, listening.
-fn monitor(address: &str, profile: &str) -> anyhow::Result<Running> {
-    Running::start(&["monitor", address, "--profile", profile, "--json"])
+/// A monitor of `address`, which the device has answered. Without a profile it must find out by itself what it is.
+fn monitor(address: &str, profile: Option<&str>) -> anyhow::Result<Running> {
+    let mut arguments = vec!["monitor", address, "--json"];
+    arguments.extend(profile.into_iter().flat_map(|name| ["--profile", name]));
+    let monitor = Running::start(&arguments)?;
+    monitor.says("the device answers", PATIENCE)?;
+    Ok(monitor)
 }
 
 /// The values of one kind of event, in order.

@@ -11,7 +11,7 @@ use device_profiles::Profiles;
 use firmware_sim::hands::Touch;
 use firmware_sim::{UsbDevice, usb_kind};
 
-use super::PATIENCE;
+use super::{PATIENCE, same};
 use crate::kernel::cable::{Cable, Watch};
 use crate::kernel::function::Hid;
 
@@ -135,13 +135,15 @@ pub(super) fn reports(watch: &Watch, line: &mut dyn Transport, count: usize) -> 
     Ok(seen)
 }
 
-/// Every report that still comes, until none has for a while.
+/// So long nothing must come before it is said that nothing does.
+const SILENCE_US: u64 = 300_000;
+
+/// Every report that still comes, until none has for a while; for devices of which some reports may be lost.
 pub(super) fn drained(watch: &Watch, line: &mut dyn Transport) -> anyhow::Result<Vec<Vec<u8>>> {
-    const SILENCE_US: u64 = 400_000;
     let mut seen = Vec::new();
     let mut buffer = [0; 256];
     let mut last_us = watch.now_us();
-    while watch.now_us() < last_us + SILENCE_US {
+    while watch.now_us() < last_us + 3 * SILENCE_US {
         match line.read(&mut buffer)? {
             0 => watch.pause(Duration::from_millis(2)),
             length => {
@@ -151,6 +153,39 @@ pub(super) fn drained(watch: &Watch, line: &mut dyn Transport) -> anyhow::Result
         }
     }
     Ok(seen)
+}
+
+/// Everything the host gets besides `seen`, until it has as much as the kernel took and nothing more comes; all of it
+/// must be what the kernel took, in its order.
+pub(super) fn settled(
+    watch: &Watch,
+    cable: &Cable<Hid>,
+    line: &mut dyn Transport,
+    mut seen: Vec<Vec<u8>>,
+) -> anyhow::Result<Vec<Vec<u8>>> {
+    let mut taken = Vec::new();
+    let mut buffer = [0; 256];
+    let until_us = watch.now_us() + PATIENCE.as_micros() as u64;
+    let mut last_us = watch.now_us();
+    loop {
+        let now_us = watch.now_us();
+        let new = cable.with(|hid, _| hid.taken());
+        let length = line.read(&mut buffer)?;
+        if !new.is_empty() || length > 0 {
+            last_us = now_us;
+        }
+        taken.extend(new);
+        if length > 0 {
+            seen.push(buffer[..length].to_vec());
+            continue;
+        }
+        let is_still = now_us > last_us + SILENCE_US;
+        if now_us > until_us || is_still && seen.len() >= taken.len() {
+            same(&seen, &taken, "reports against what the kernel took")?;
+            return Ok(seen);
+        }
+        watch.pause(Duration::from_millis(2));
+    }
 }
 
 /// Reports that come within a time nobody does anything in.

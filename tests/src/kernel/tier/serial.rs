@@ -29,16 +29,21 @@ pub(super) const CLAIMS: &[Claim] = &[
         show: servo_bus,
     },
     Claim {
-        name: "serial: the adapter's latency timer is set through the kernel, and answers come whole at either setting",
+        name: "serial: dialrig servo doctor finds the adapter's latency timer at 16 ms and sets it to 1 ms in the chip",
+        show: doctor,
+    },
+    Claim {
+        name: "serial: the adapter's latency timer is set through the kernel, and answers come whole at every setting",
         show: latency_timer,
     },
 ];
 
-const BOX: [&str; 3] = ["Dialrig Bench", "SGI dial box on USB", "BOX0001"];
+/// Words of a dial box on USB.
+pub(super) const BOX: [&str; 3] = ["Dialrig Bench", "SGI dial box on USB", "BOX0001"];
 const ADAPTER: [&str; 3] = ["FTDI", "FT232R USB UART", "BENCH001"];
 
 /// Where the kernel has put a device whose serial number is known.
-fn port(watch: &Watch, serial: &str) -> anyhow::Result<String> {
+pub(super) fn port(watch: &Watch, serial: &str) -> anyhow::Result<String> {
     let until_us = watch.now_us() + PATIENCE.as_micros() as u64;
     loop {
         let all = host::devices(false)?;
@@ -62,27 +67,23 @@ fn turn(dial_box: &Cable<Acm<SgiDialBox>>, control: u8, counts: i32, over_us: u6
     });
 }
 
-/// Turns dial 7 a count at a time until a monitor hears it, and says how many it has heard then.
+/// Turns dial 7 a count at a time until a monitor hears it: what is turned before the box was told to report is lost.
 fn heard(watch: &Watch, dial_box: &Cable<Acm<SgiDialBox>>, monitor: &Running) -> anyhow::Result<()> {
-    for _ in 0..100 {
+    let until_us = watch.now_us() + PATIENCE.as_micros() as u64;
+    loop {
         turn(dial_box, 7, 1, 0);
-        let seen = monitor.until(Duration::from_millis(100), "a first event", |records| {
-            turned(records, 7) > 0
-        });
-        if seen.is_ok() {
-            return Ok(());
+        let first = |records: &[serde_json::Value]| turned(records, 7) > 0;
+        let seen = monitor.until(Duration::from_millis(100), "a first event", first);
+        if seen.is_ok() || watch.now_us() > until_us {
+            return seen.map(drop);
         }
-        watch.pause(Duration::from_millis(20));
     }
-    monitor
-        .until(PATIENCE, "a first event", |records| turned(records, 7) > 0)
-        .map(|_| ())
 }
 
 fn dial_box(watch: &Watch) -> anyhow::Result<()> {
     let cable = Cable::plug_in(Acm::new(SgiDialBox::new(Options::default()), BOX), 1, watch);
     let port = port(watch, BOX[2])?;
-    let monitor = monitor(&port, "sgi-dialbox")?;
+    let monitor = monitor(&port, Some("sgi-dialbox"))?;
     heard(watch, &cable, &monitor)?;
     turn(&cable, 0, 200, 700_000);
     turn(&cable, 3, -77, 300_000);
@@ -109,13 +110,18 @@ fn dial_box_unplugged(watch: &Watch) -> anyhow::Result<()> {
     let cable = Cable::plug_in(Acm::new(SgiDialBox::new(Options::default()), BOX), 1, watch);
     for _ in 0..2 {
         let port = port(watch, BOX[2])?;
-        let mut monitor = monitor(&port, "sgi-dialbox")?;
+        let mut monitor = monitor(&port, Some("sgi-dialbox"))?;
         heard(watch, &cable, &monitor)?;
         turn(&cable, 0, 100_000, 100_000_000);
         monitor.until(PATIENCE, "turning", |records| turned(records, 0) > 20)?;
         cable.plug(false);
         let status = monitor.ended(watch, PATIENCE)?;
         same(&status.code(), &Some(3), "the exit of a lost device")?;
+        let records = monitor.all(PATIENCE)?;
+        ensure!(
+            records.iter().all(|record| record["delta"].as_i64() > Some(0)),
+            "only turns to the right were made: {records:?}"
+        );
         let words = monitor.errors().join("\n");
         ensure!(
             words.contains("gone"),
@@ -128,22 +134,22 @@ fn dial_box_unplugged(watch: &Watch) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Six servos behind an adapter.
-fn bus() -> anyhow::Result<ServoBus> {
+/// So many servos behind an adapter.
+fn bus(count: u8) -> anyhow::Result<ServoBus> {
     let profiles = Profiles::builtin();
     let mut bus = ServoBus::new(BusOptions {
         baud: 1_000_000,
         ..BusOptions::default()
     });
     let model = profiles.servo("XL430-W250")?;
-    for id in 1..=6 {
+    for id in 1..=count {
         bus.add(model, Unit::new(id)).context("a servo")?;
     }
     Ok(bus)
 }
 
 fn servo_bus(watch: &Watch) -> anyhow::Result<()> {
-    let cable = Cable::plug_in(Ftdi::new(bus()?, ADAPTER), 2, watch);
+    let cable = Cable::plug_in(Ftdi::new(bus(6)?, ADAPTER), 2, watch);
     let port = port(watch, ADAPTER[2])?;
     let said = host::run(
         &[
@@ -187,18 +193,40 @@ fn servo_bus(watch: &Watch) -> anyhow::Result<()> {
 }
 
 fn latency_timer(watch: &Watch) -> anyhow::Result<()> {
-    let cable = Cable::plug_in(Ftdi::new(bus()?, ADAPTER), 2, watch);
+    let cable = Cable::plug_in(Ftdi::new(bus(6)?, ADAPTER), 2, watch);
     let port = port(watch, ADAPTER[2])?;
     let name = port.trim_start_matches("/dev/");
     let file = format!("/sys/bus/usb-serial/devices/{name}/latency_timer");
-    let kernel = std::fs::read_to_string(&file)?;
-    same(&kernel.trim().to_owned(), &"16".to_owned(), "the kernel's timer")?;
-    let mut line = open(&port.parse()?, 1_000_000)?;
-    answered_pings(watch, &mut *line)?;
-    std::fs::write(&file, "1")?;
-    let set = cable.with(|ftdi, _| ftdi.latency_ms());
-    same(&set, &1, "the chip's timer after the kernel has set it")?;
-    answered_pings(watch, &mut *line)
+    let kernel = || std::fs::read_to_string(&file).map(|text| text.trim().to_owned());
+    same(&kernel()?.as_str(), &"16", "the kernel's timer")?;
+    for (ms, set_by) in [(1, "1"), (7, "7"), (16, "16")] {
+        std::fs::write(&file, set_by)?;
+        let set = cable.with(|ftdi, _| ftdi.latency_ms());
+        same(&set, &ms, "the chip's timer after the kernel has set it")?;
+        same(&kernel()?.as_str(), &set_by, "and what the kernel reads")?;
+        let mut line = open(&port.parse()?, 1_000_000)?;
+        answered_pings(watch, &mut *line)?;
+    }
+    Ok(())
+}
+
+fn doctor(watch: &Watch) -> anyhow::Result<()> {
+    let cable = Cable::plug_in(Ftdi::new(bus(1)?, ADAPTER), 2, watch);
+    let port = port(watch, ADAPTER[2])?;
+    let look = [
+        "servo", "doctor", "--port", &port, "--baud", "1000000", "--json", "--fix",
+    ];
+    let said = host::run(&look, false)?;
+    // What is mended is named before, with what it was; what is found after is a record.
+    let named = said.err.lines().find(|line| line.contains("16 ms"));
+    let named = named.with_context(|| format!("the timer at 16 ms is to be named: {said:?}"))?;
+    ensure!(named.contains("latency timer"), "{named}");
+    ensure!(
+        !said.out.contains("adapter-latency"),
+        "after mending it is found no more: {said:?}"
+    );
+    let timer = cable.with(|ftdi, _| ftdi.latency_ms());
+    same(&timer, &1, &format!("the chip's timer after {said:?}"))
 }
 
 /// Some pings of servo 1, each answered in full. How long they take says nothing here: an emulated processor adds more
