@@ -44,6 +44,13 @@ pub fn open(
     let flags = OFlags::RDWR | OFlags::NONBLOCK | OFlags::CLOEXEC;
     let reader = rustix::fs::open(path, flags, Mode::empty())
         .map_err(|e| TransportError::from_io(path, HID_HINT, e.into()))?;
+    let name = path.rsplit('/').next().unwrap_or(path);
+    let threads = |source| TransportError::Io {
+        address: path.to_owned(),
+        source,
+    };
+    // At once: the kernel holds 64 reports for a reader, and what follows may take a while.
+    let intake = Intake::spawn(name, clock, Box::new(Listening(reader))).map_err(threads)?;
     let api = HidApi::new().map_err(|e| refusal(path, "the HID library did not start", &e))?;
     let talker = open_node(&api, path)?;
     let mut descriptor = vec![0; DESCRIPTOR_BYTES_MAX];
@@ -51,11 +58,6 @@ pub fn open(
         .get_report_descriptor(&mut descriptor)
         .map_err(|e| refusal(path, "its report descriptor cannot be read", &e))?;
     descriptor.truncate(length);
-    let name = path.rsplit('/').next().unwrap_or(path);
-    let threads = |source| TransportError::Io {
-        address: path.to_owned(),
-        source,
-    };
     let talking = Node {
         address: path.to_owned(),
         device: talker,
@@ -64,7 +66,7 @@ pub fn open(
     };
     Ok(HidTransport {
         address: path.to_owned(),
-        intake: Intake::spawn(name, clock, Box::new(Listening(reader))).map_err(threads)?,
+        intake,
         errands: Errands::spawn(path, name, Box::new(talking)).map_err(threads)?,
         descriptor,
     })
