@@ -4,10 +4,10 @@ use std::process::{Child, Command};
 use std::time::Duration;
 
 use anyhow::{Context, ensure};
-use firmware_sim::hands::{Pen, Touch, Turn};
+use firmware_sim::hands::{Pen, Touch};
 use serde_json::Value;
 
-use super::many::whole_to_the_end;
+use super::many::{turn, while_turning};
 use super::open::{find_one, plugged, touch, until_open};
 use super::{Claim, PATIENCE, edges, monitor, same, told};
 use crate::kernel::cable::{Cable, Watch};
@@ -36,14 +36,6 @@ pub(super) const CLAIMS: &[Claim] = &[
         show: watching,
     },
 ];
-
-fn turn(clicks: i32, over_us: u64) -> Touch {
-    Touch::Dial {
-        control: 0,
-        by: Turn::Counts(clicks),
-        over_us,
-    }
-}
 
 fn button(down: bool) -> Touch {
     Touch::Button { control: 0, down }
@@ -255,17 +247,19 @@ fn under_load(watch: &Watch) -> anyhow::Result<()> {
     for _ in 0..3 {
         let mut monitor = listening(watch, &cable, "powermate")?;
         touch(&cable, &button(true))?;
-        touch(&cable, &turn(100_000, 1_000_000_000))?;
-        monitor.until(PATIENCE, "a press and twenty steps", |records| {
-            steps(records).len() >= 20 && !edges(records).is_empty()
+        while_turning(watch, &cable, || {
+            monitor.until(PATIENCE, "a press and twenty steps", |records| {
+                steps(records).len() >= 20 && !edges(records).is_empty()
+            })?;
+            cable.plug(false);
+            let status = monitor.ended(watch, PATIENCE)?;
+            same(&status.code(), &Some(3), "the exit of a lost device")
         })?;
-        cable.plug(false);
-        let status = monitor.ended(watch, PATIENCE)?;
-        same(&status.code(), &Some(3), "the exit of a lost device")?;
         let records = monitor.all(PATIENCE)?;
+        let heard = steps(&records);
+        // To the last one: what a node still holds when its device goes is read.
         let taken = cable.with(|hid, _| hid.taken());
-        let (heard, sent) = (steps(&records), sent(&taken));
-        whole_to_the_end(&heard, &sent)?;
+        same(&heard, &sent(&taken), "every step, in order")?;
         // A button that is held when the cable comes out is let go.
         same(&edges(&records), &vec![(0, true), (0, false)], "the button")?;
         same(&records.len(), &(heard.len() + 2), "nothing else was told")?;
