@@ -121,22 +121,19 @@ impl Listener {
             Some(key) => Some(key.to_owned()),
             None => recognise(ports, address, profiles)?,
         };
-        let device = match recognised {
-            Some(key) => {
-                let known = profiles.input(&key).map_err(|_| ListenError::Profile {
-                    profile: key.clone(),
-                    known: known_profiles(profiles),
-                })?;
-                Device::of_profile(address, known, ports.open_input(address, known.line.as_ref())?)?
-            }
-            None => {
-                let line = ports.open_input(address, None)?;
-                let (device, _) = Device::generic(address, line).map_err(|why| ListenError::Undescribed {
-                    address: address.to_owned(),
-                    why,
-                })?;
-                device
-            }
+        let device = if let Some(key) = recognised {
+            let known = profiles.input(&key).map_err(|_| ListenError::Profile {
+                profile: key.clone(),
+                known: known_profiles(profiles),
+            })?;
+            Device::of_profile(address, known, ports.open_input(address, known.line.as_ref())?)?
+        } else {
+            let line = ports.open_input(address, None)?;
+            let (device, _) = Device::generic(address, line).map_err(|why| ListenError::Undescribed {
+                address: address.to_owned(),
+                why,
+            })?;
+            device
         };
         let began = clock.now();
         Ok(Self {
