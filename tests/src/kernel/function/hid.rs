@@ -39,6 +39,7 @@ impl Hid {
     }
 
     /// The same device under other numbers: one that nobody knows.
+    #[must_use]
     pub fn called(mut self, ids: [u16; 2]) -> Self {
         self.called = Some(ids);
         self

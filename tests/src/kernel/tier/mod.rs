@@ -21,7 +21,7 @@ use super::host::Running;
 
 /// Longest wait for anything. A software-emulated machine beside other work is slow; every wait ends with what it waits
 /// for, so this costs nothing where all is well.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// One claim and what shows it.
 pub struct Claim {

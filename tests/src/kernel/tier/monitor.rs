@@ -127,8 +127,7 @@ fn strokes(watch: &Watch) -> anyhow::Result<()> {
                 }),
             )?;
             // 15,200 by 9,500 counts, y downwards; one step of the hand at a time.
-            let counts =
-                [(x + 1.0) / 2.0 * 15_200.0, (1.0 - y) / 2.0 * 9_500.0].map(|place| place.round() as u64);
+            let counts = [(x + 1.0) * 7_600.0, (1.0 - y) * 4_750.0].map(|place| place.round() as u64);
             wanted.push(counts);
             let there = |records: &[Value]| samples(records).last() == Some(&counts);
             monitor.until(PATIENCE, &format!("a sample at {counts:?}"), there)?;
@@ -156,7 +155,7 @@ fn strokes(watch: &Watch) -> anyhow::Result<()> {
 fn samples(records: &[Value]) -> Vec<[u64; 2]> {
     let samples = told(records, "sample");
     let place = |record: &&Value| Some([record["x"].as_u64()?, record["y"].as_u64()?]);
-    samples.iter().filter_map(|record| place(record)).collect()
+    samples.iter().filter_map(place).collect()
 }
 
 fn flags(records: &[Value], event: &str) -> Vec<bool> {
