@@ -13,7 +13,7 @@ mod write;
 
 pub use events::{event_words, read_event};
 pub use play::{Difference, Played, agrees, play};
-pub use read::{ExchangeError, read};
+pub use read::{ExchangeError, read, read_readable};
 pub use shows::show_words;
 pub use write::{time_words, write, write_record};
 

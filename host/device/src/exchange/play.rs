@@ -18,6 +18,8 @@ const LOOK: Duration = Duration::from_millis(1);
 pub struct Played {
     /// Everything it said, with the exchange's times.
     pub events: Vec<Stamped<InputEvent>>,
+    /// Everything the host said, likewise; waits are no saying.
+    pub said: Vec<(Instant, Step)>,
     /// Where it did otherwise than the exchange has it. Events, and what the host sends, are only compared where
     /// the exchange tells any.
     pub differences: Vec<Difference>,
@@ -89,7 +91,12 @@ impl Playing<'_> {
             heard.push_back(what);
             events.push(Stamped { at: now, what });
         });
-        self.said.extend(self.out.drain());
+        for step in self.out.drain() {
+            if !matches!(step, Step::Wait(_)) {
+                self.played.said.push((now, step.clone()));
+            }
+            self.said.push_back(step);
+        }
     }
 
     fn advance(&mut self) {
@@ -125,7 +132,11 @@ impl Playing<'_> {
                 self.advance();
             }
             What::Gone => self.hear(|codec, _, emit| codec.let_go(emit)),
-            What::Back => self.start(),
+            What::Back => {
+                // What had not been sent when the line went never will be.
+                self.said.clear();
+                self.start();
+            }
             What::Show(feedback) => self.hear(|codec, out, _| codec.encode(feedback, out)),
             &What::Surface {
                 max_counts,

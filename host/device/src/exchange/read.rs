@@ -29,6 +29,16 @@ impl ExchangeError {
 
 /// Reads an exchange. On failure gives every error, not only the first.
 pub fn read(text: &str) -> Result<Exchange, Vec<ExchangeError>> {
+    let (exchange, errors) = read_readable(text);
+    if errors.is_empty() {
+        Ok(exchange)
+    } else {
+        Err(errors)
+    }
+}
+
+/// Reads what can be read, line by line, and says what cannot: a recording is worth something without its last line.
+pub fn read_readable(text: &str) -> (Exchange, Vec<ExchangeError>) {
     let mut exchange = Exchange::default();
     let mut errors = Vec::new();
     let mut reached = Duration::ZERO;
@@ -47,11 +57,7 @@ pub fn read(text: &str) -> Result<Exchange, Vec<ExchangeError>> {
             Err(error) => errors.push(error),
         }
     }
-    if errors.is_empty() {
-        Ok(exchange)
-    } else {
-        Err(errors)
-    }
+    (exchange, errors)
 }
 
 /// Takes a `key: value` line; false if it is none.
@@ -127,7 +133,13 @@ fn head_line(text: &str, line: u32, exchange: &mut Exchange) -> Result<bool, Exc
 
 fn record(line: u32, text: &str, reached: &mut Duration) -> Result<Option<Record>, ExchangeError> {
     let mut words = Words::cut(line, text)?;
-    let at = match words.take_time() {
+    // Behind the line, or in front of it.
+    let time_word = if words.skip("@") {
+        Some(words.word("seconds")?)
+    } else {
+        words.take_time()
+    };
+    let at = match time_word {
         Some(word) => Some(time(&words, &word, reached)?),
         None => None,
     };

@@ -2,68 +2,46 @@
 //!
 //! Only the reports are taken here; playing both sides against one another is another matter.
 
-use super::recording::{RecordedDevice, RecordedReport, Recording, hex, seconds};
+use device::codec::Answer;
+use device::exchange::{self, What};
 use std::time::Duration;
 
-/// Whether a text is an exchange.
-pub(super) fn is(text: &str) -> bool {
-    text.lines().any(|line| said(line).is_some())
-}
+use super::recording::{RecordedDevice, RecordedReport, Recording};
 
-/// What the device said in a line, if it said something: the time in front, and the bytes as written.
-fn said(line: &str) -> Option<(Option<Duration>, &str)> {
-    let line = line.split('#').next().unwrap_or_default().trim();
-    let (at, line) = match line.strip_prefix('@') {
-        Some(timed) => {
-            let (time, rest) = timed.trim_start().split_once(char::is_whitespace)?;
-            (Some(seconds(time)?), rest.trim_start())
-        }
-        None => (None, line),
-    };
-    let bytes = line.strip_prefix("device")?.trim_start().strip_prefix('<')?;
-    // The time may stand behind as well.
-    match bytes.split_once('@') {
-        Some((bytes, time)) => Some((Some(seconds(time.trim())?), bytes.trim())),
-        None => Some((at, bytes.trim())),
+/// What the device of an exchange said; none of a text that is no exchange. Lines that cannot be read are flaws: a
+/// recording is worth something without its last line.
+pub(super) fn read(text: &str) -> Option<Recording> {
+    let (exchange, errors) = exchange::read_readable(text);
+    let told = |what: &What| matches!(what, What::Device(_) | What::Answer(_));
+    if !exchange.records.iter().any(|record| told(&record.what)) {
+        return None;
     }
-}
-
-pub(super) fn read(text: &str) -> Recording {
+    let mut device = RecordedDevice {
+        name: exchange.head.profile.clone().unwrap_or_default(),
+        profile: exchange.head.profile,
+        ..RecordedDevice::default()
+    };
     let mut recording = Recording::default();
-    let mut device = RecordedDevice::default();
     let mut now = Duration::ZERO;
-    for (line, text) in (1..).zip(text.lines()) {
-        if let Some(key) = text.strip_prefix("profile:") {
-            let key = key.split('#').next().unwrap_or_default().trim();
-            device.profile = Some(key.to_owned());
-            key.clone_into(&mut device.name);
-            continue;
-        }
-        let Some((at, bytes)) = said(text) else { continue };
-        now = at.unwrap_or(now);
-        let mut words = bytes.split_whitespace();
-        // Answers to questions are no reports.
-        let answer = words
-            .next()
-            .is_some_and(|word| ["feature", "string", "descriptor", "gone", "back"].contains(&word));
-        if answer {
-            continue;
-        }
-        match hex(bytes) {
-            Ok(bytes) => recording.reports.push(RecordedReport {
+    for record in exchange.records {
+        now = record.at.unwrap_or(now);
+        match record.what {
+            What::Device(bytes) => recording.reports.push(RecordedReport {
                 device: 0,
                 at: now,
                 bytes,
             }),
-            Err(word) => recording.flaw(
-                line,
-                text.find(word).unwrap_or(0),
-                format!("expected bytes as two hexadecimal digits each, found \"{word}\""),
-            ),
+            // Answers to questions are no reports, but this one tells what the reports mean.
+            What::Answer(Answer::Descriptor(Ok(descriptor))) => device.descriptor = Some(descriptor),
+            _ => {}
         }
     }
+    for error in errors {
+        let column = error.column.saturating_sub(1) as usize;
+        recording.flaw(error.line, column, error.message);
+    }
     recording.devices.push(device);
-    recording
+    Some(recording)
 }
 
 #[cfg(test)]
@@ -75,12 +53,27 @@ mod tests {
         let recording = read(
             "# a box\nprofile: sgi-dialbox\nhost   > 20\ndevice < 20   # ready\n@ 0.250 device < 33 00 40\n\
              device < string 200 13 03\nevent dial 3 +64\ndevice < 33 00 41 @ 0.300\n",
-        );
+        )
+        .expect("an exchange");
         assert_eq!(recording.flaws, []);
         assert_eq!(recording.devices[0].profile.as_deref(), Some("sgi-dialbox"));
         let times: Vec<_> = recording.reports.iter().map(|r| r.at.as_millis()).collect();
         assert_eq!(times, [0, 250, 300]);
-        assert!(is("device < 20"));
-        assert!(!is("E: 0.0 1 20"));
+        assert!(read("device < 20").is_some());
+        assert!(read("E: 0.0 1 20").is_none());
+        assert!(read("profile: sgi-dialbox").is_none());
+    }
+
+    #[test]
+    fn a_file_that_breaks_off_in_the_middle_is_worth_what_is_there() {
+        let text = "profile: sgi-dialbox\ndevice < 20 @ 0.1\ndevice < 33 00 40 @ 0.2\n";
+        let whole = read(text).expect("an exchange").reports;
+        for cut in text.len() - 8..text.len() {
+            let recording = read(&text[..cut]).expect("an exchange");
+            assert_eq!(recording.reports[0], whole[0], "cut at {cut}");
+            assert_eq!(recording.reports.len() + recording.flaws.len(), 2, "cut at {cut}");
+        }
+        let torn = read("device < 20\ndevice < 33 0").expect("an exchange");
+        assert_eq!((torn.flaws[0].line, torn.flaws[0].column), (2, 13));
     }
 }

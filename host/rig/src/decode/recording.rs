@@ -57,8 +57,8 @@ impl Recording {
         let dump = text.lines().any(|line| super::dump::header(line).is_some());
         if dump {
             super::dump::read(text)
-        } else if super::exchange::is(text) {
-            super::exchange::read(text)
+        } else if let Some(recording) = super::exchange::read(text) {
+            recording
         } else {
             super::recorder::read(text)
         }
