@@ -76,6 +76,16 @@ fn ends(pose: &FigurePose) -> Vec<DVec3> {
     placed.iter().map(|link| link.end).collect()
 }
 
+/// What sticks out sideways of each link, in the world.
+fn sides(pose: &FigurePose) -> Vec<DVec3> {
+    let mut placed = Vec::new();
+    figure().place(pose, &mut placed);
+    placed
+        .iter()
+        .map(|link| link.world_from_link * DVec3::X)
+        .collect()
+}
+
 /// A hand's way: steps of changing speed with pauses, jumps now and then.
 fn walks() -> impl Strategy<Value = Vec<(f64, [f64; 9])>> {
     let step = (
@@ -142,6 +152,13 @@ proptest! {
             for (shown, wanted) in shown.links.iter().zip(&key.pose.links) {
                 let angle = shown.direction.angle_between(wanted.direction);
                 prop_assert!(angle <= TOLERANCE.angle_rad * (1.0 + 1e-6), "{angle} at {} s", key.secs);
+                prop_assert!((shown.length - wanted.length).abs() <= TOLERANCE.distance_m * (1.0 + 1e-9));
+            }
+            // What sticks out of a link at a right angle shows its twist: however a frame is turned, nothing in it turns
+            // farther.
+            for (shown, wanted) in sides(&shown).iter().zip(sides(&key.pose)) {
+                let angle = shown.angle_between(wanted);
+                prop_assert!(angle <= TOLERANCE.angle_rad * (1.0 + 1e-6), "twisted {angle} at {} s", key.secs);
             }
         }
         // In pieces or at once is the same.
