@@ -2,35 +2,44 @@
 
 use super::super::rig_step::nanos_per;
 use super::frames::{LAYOUTS, described, described_reports};
+use super::recorded;
 use device::codec::Codec;
 use std::hint::black_box;
 
 /// Times all reports of a layout are gone through in one repetition: long enough that reading the clock does not count.
 const TIMES: usize = 40;
 
-/// One layout with its reports.
+/// One layout or format with what devices say in it.
 pub(super) struct Decoded {
-    pub(super) name: &'static str,
+    pub(super) name: String,
     codec: Box<dyn Codec>,
     reports: Vec<Vec<u8>>,
     /// Events that all its reports make together.
     events: usize,
 }
 
-/// All layouts, and the pen that describes itself.
+/// All layouts and formats by their exchanges; then reports that each make an event: of layouts again, of boxes that
+/// have none, and of the pen that describes itself.
 pub(super) fn all() -> anyhow::Result<Vec<Decoded>> {
     let mut all = Vec::new();
-    for layout in &LAYOUTS {
-        all.push((layout.name, layout.codec()?, layout.reports()));
+    for one in recorded::all()? {
+        all.push((one.name, one.codec, one.pieces, 1));
     }
-    all.push(("descriptor", described()?, described_reports()));
+    let moving = |name: &str, codec, reports: Vec<Vec<u8>>| {
+        let least = reports.len();
+        (format!("{name}, moving"), codec, reports, least)
+    };
+    for layout in &LAYOUTS {
+        all.push(moving(layout.name, layout.codec()?, layout.reports()));
+    }
+    all.push(moving("descriptor", described()?, described_reports()));
     all.into_iter()
-        .map(|(name, mut codec, reports)| {
+        .map(|(name, mut codec, reports, least)| {
             // The first round settles what only the first report tells.
             decode(codec.as_mut(), &reports);
             let events = decode(codec.as_mut(), &reports);
             anyhow::ensure!(
-                events >= reports.len(),
+                events >= least,
                 "{name}: {events} events of {} reports",
                 reports.len()
             );

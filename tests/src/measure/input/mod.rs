@@ -4,6 +4,7 @@ mod decoding;
 mod flood;
 mod frames;
 mod latency;
+mod recorded;
 mod tokens;
 
 use super::{Row, Subject, Tell, repeated};
@@ -34,7 +35,10 @@ pub fn take(tell: &mut Tell<'_>) -> anyhow::Result<()> {
 
 fn decode(tell: &mut Tell<'_>) -> anyhow::Result<()> {
     let mut all = decoding::all()?;
-    let allocations: Vec<_> = all.iter_mut().map(|one| (one.name, one.allocations())).collect();
+    let allocations: Vec<_> = all
+        .iter_mut()
+        .map(|one| (one.name.clone(), one.allocations()))
+        .collect();
     let mut subjects: Vec<Subject<'_>> = all
         .iter_mut()
         .map(|one| Subject {
@@ -63,6 +67,19 @@ fn tokens(tell: &mut Tell<'_>) -> anyhow::Result<()> {
         .iter()
         .map(|layout| Ok((layout.name, tokens::Heard::new(layout)?)))
         .collect::<anyhow::Result<Vec<_>>>()?;
+    let allocations: Vec<_> = rigs
+        .iter_mut()
+        .map(|(name, rig)| (*name, rig.allocations()))
+        .collect();
+    for (name, count) in allocations {
+        tell(&row(
+            &format!("{name}: allocations of a step for its report"),
+            count,
+            count,
+            "a report",
+            Some(0.0),
+        ));
+    }
     let mut subjects: Vec<Subject<'_>> = rigs
         .iter_mut()
         .map(|(name, rig)| Subject {

@@ -15,6 +15,8 @@ use std::time::Duration;
 pub(super) const STEP: Duration = Duration::from_millis(10);
 /// Steps in one repetition.
 const STEPS: usize = 100;
+/// Steps after which everything has the size it keeps.
+const SETTLED: usize = 600;
 
 /// One line in memory, given out once.
 struct OneLine(Option<ReportTransport>);
@@ -97,6 +99,33 @@ impl Heard {
     pub(super) fn step(&mut self) -> Arc<Snapshot> {
         self.clock.advance(STEP);
         self.rig.step(&mut std::iter::empty::<Command>())
+    }
+
+    /// Allocations of steps that hear a report, less those of steps that hear nothing: what is seen of a step is made
+    /// anew in both.
+    pub(super) fn allocations(&mut self) -> f64 {
+        for _ in 0..SETTLED {
+            self.report();
+            self.step();
+        }
+        let mut count = |reports: bool| {
+            let mut counted = 0;
+            for _ in 0..STEPS {
+                if reports {
+                    self.report();
+                }
+                self.clock.advance(STEP);
+                let rig = &mut self.rig;
+                counted += allocation_counter::measure(|| {
+                    black_box(rig.step(&mut std::iter::empty::<Command>()));
+                })
+                .count_total;
+            }
+            counted as f64 / STEPS as f64
+        };
+        // Still ones first: what moves goes on moving its picture for a moment.
+        let still = count(false);
+        count(true) - still
     }
 
     /// Nanoseconds of a step that hears one report.
