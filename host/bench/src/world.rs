@@ -249,6 +249,11 @@ impl World {
         &self.seen
     }
 
+    /// Where captures go.
+    pub fn keep_captures_in(&mut self, folder: std::path::PathBuf) {
+        self.rig.keep_captures_in(folder);
+    }
+
     /// Takes the puppet's lines for a calibration by hand; the rig loses them.
     pub fn begin_calibration(&mut self, joint: Option<&str>) -> Result<(), HandError> {
         let puppet = self.equipment.puppet.as_deref();

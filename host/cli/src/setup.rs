@@ -94,7 +94,10 @@ impl LiveSetup {
             recorder: None,
         };
         let ports = Box::new(WithBench::beside(Box::new(SimPorts::new(stand)), system));
-        let rig = Rig::new(Arc::clone(&clock), ports, options).map_err(|e| refused(&e))?;
+        let mut rig = Rig::new(Arc::clone(&clock), ports, options).map_err(|e| refused(&e))?;
+        if let Some(user) = rig::shipped::user_folder() {
+            rig.keep_captures_in(user.join("captures"));
+        }
         Live::start(rig, clock, seen).map_err(|e| refused(&e))
     }
 

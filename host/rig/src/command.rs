@@ -81,10 +81,27 @@ pub enum Command {
         /// Which of several equal ones it is to be, from 1; none lets it be found by itself again.
         slot: Option<u16>,
     },
+    /// Writes what devices and the rig say to each other into files, one a device, until it is stopped.
+    StartCapture {
+        /// The devices, by [`crate::DeviceView::name`]; all when empty.
+        devices: Vec<String>,
+    },
+    /// Ends captures; the files are whole then.
+    StopCapture {
+        /// The devices; all that are captured when empty.
+        devices: Vec<String>,
+    },
     /// Performances kept as what the devices said.
     Take(TakeCommand),
     /// Writes the show to its folder.
     Save,
+}
+
+impl Command {
+    /// Whether it is about captures: nothing of the rig comes of it, only files.
+    pub fn is_capture(&self) -> bool {
+        matches!(self, Self::StartCapture { .. } | Self::StopCapture { .. })
+    }
 }
 
 /// Takes: recorded, done again through the network as it is now, thrown away.

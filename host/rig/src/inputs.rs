@@ -95,6 +95,8 @@ struct Seat {
     health: DeviceHealth,
     events: u64,
     look_at: Instant,
+    /// It is looked for in every step, and nobody is told.
+    eager: bool,
 }
 
 /// A device out of its line; an error in words.
@@ -153,6 +155,13 @@ impl Inputs {
         heard.sort_by_key(|it| it.event.at);
     }
 
+    /// Devices that are away are looked for in every step: whoever has the lines knows when each was opened.
+    pub(crate) fn look_in_every_step(&mut self) {
+        for seat in &mut self.seats {
+            seat.eager = true;
+        }
+    }
+
     /// What the rig calls the device of a seat.
     pub(crate) fn name(&self, seat: usize) -> Option<&str> {
         self.seats.get(seat).map(|seat| seat.spec.name.as_str())
@@ -163,6 +172,13 @@ impl Inputs {
         self.seats
             .iter()
             .map(|seat| (seat.spec.name.as_str(), &seat.profile))
+    }
+
+    /// The profile of a device, and whether it is its own description.
+    pub(crate) fn profile(&self, name: &str) -> Option<(Arc<InputProfile>, bool)> {
+        let seat = self.seats.iter().find(|seat| seat.spec.name == name)?;
+        let described = self.profiles.input(&seat.spec.profile).is_err();
+        Some((Arc::clone(&seat.profile), described))
     }
 
     /// Has a device show something. One that is away shows it when it is back.
@@ -238,6 +254,7 @@ impl Seat {
             health: DeviceHealth::Lost,
             events: 0,
             look_at: Instant::ZERO,
+            eager: false,
             profile,
         }
     }
@@ -266,7 +283,7 @@ impl Seat {
                 DeviceHealth::Lost => {
                     let why = device.lost().map(TransportError::to_string).unwrap_or_default();
                     noticed(Change::Gone(self.spec.name.clone(), why));
-                    self.look_at = now.after(LOOK_AGAIN);
+                    self.look_at = if self.eager { now } else { now.after(LOOK_AGAIN) };
                     self.open = false;
                 }
                 _ => {}
@@ -284,12 +301,17 @@ impl Seat {
     /// Tries to open it. What keeps it from being opened is how it is.
     fn look(&mut self, now: Instant, ports: &mut dyn Ports, noticed: &mut dyn FnMut(Change)) {
         let settling = self.taken.as_ref().is_some_and(|taken| taken.settling(now));
-        self.look_at = now.after(if settling { TRY_AGAIN_SOON } else { LOOK_AGAIN });
-        let error = match ports.open_input(&self.spec.address, self.profile.line.as_ref()) {
+        self.look_at = match (self.eager, settling) {
+            (true, _) => now,
+            (_, true) => now.after(TRY_AGAIN_SOON),
+            _ => now.after(LOOK_AGAIN),
+        };
+        let spec = &self.spec;
+        let error = match ports.open_device(&spec.name, &spec.address, self.profile.line.as_ref()) {
             Ok(line) => return self.take(line),
             Err(error) => error,
         };
-        if settling {
+        if settling || self.eager {
             return;
         }
         self.health = match &error {

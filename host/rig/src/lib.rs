@@ -47,7 +47,7 @@ pub use command::{
     Binding, Command, ControlCommand, EditCommand, KineticsMode, LearnCommand, NetworkEdit, PoseCommand,
     PuppetCommand, PuppetPose, Side, TakeCommand, TeachCommand, Touch, TransportCommand, ViewCommand,
 };
-pub use controls::view::{ControlView, DeviceHealth, DeviceView, LearningView, OutputView};
+pub use controls::view::{CaptureView, ControlView, DeviceHealth, DeviceView, LearningView, OutputView};
 pub use device_profiles::{Profiles, Reaction};
 pub use feasibility::{FeasibilityView, StretchKind, StretchView};
 pub use inputs::{InputError, InputSpec};

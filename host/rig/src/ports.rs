@@ -98,6 +98,17 @@ pub trait Ports: Send {
         self.open(address, line.map_or(0, |line| line.baud))
     }
 
+    /// The same for a device that the rig calls `device`, wherever that is now: for whoever keeps something of each.
+    fn open_device(
+        &mut self,
+        device: &str,
+        address: &str,
+        line: Option<&Line>,
+    ) -> Result<Box<dyn Transport>, TransportError> {
+        let _ = device;
+        self.open_input(address, line)
+    }
+
     /// Keeps what is at `address` at its place among equal devices, or no longer. An error in words.
     fn pin(&mut self, address: &str, slot: Option<u16>) -> Result<(), String> {
         let _ = slot;

@@ -201,9 +201,9 @@ impl Wiring {
             .map(|(_, at)| *at)
     }
 
-    /// What arrived at inlets of devices, in order.
-    pub(crate) fn device_messages(&mut self) -> Vec<DeviceMessage> {
-        std::mem::take(&mut self.device_messages)
+    /// What arrived at inlets of devices, in order; goes into an empty `messages`, whose memory is used on.
+    pub(crate) fn device_messages(&mut self, messages: &mut Vec<DeviceMessage>) {
+        std::mem::swap(&mut self.device_messages, messages);
     }
 
     /// Executes commands given while the rig runs.
@@ -298,9 +298,8 @@ impl Wiring {
         self.machine.reports().iter().map(ToString::to_string).collect()
     }
 
-    /// What arrived at the rig's parameters, in order.
-    pub(crate) fn requests(&mut self) -> Vec<Request> {
-        let mut requests = Vec::new();
+    /// Appends what arrived at the rig's parameters, in order.
+    pub(crate) fn requests(&mut self, requests: &mut Vec<Request>) {
         let Self {
             links,
             joints,
@@ -323,14 +322,12 @@ impl Wiring {
                 requests.extend(known.and_then(|it| parameters::joint_request(it, port, &value)));
                 return;
             }
-            let upper = name.to_ascii_uppercase();
-            let request = match links.iter().position(|link| *link == upper) {
+            let request = match links.iter().position(|link| link.eq_ignore_ascii_case(name)) {
                 Some(link) => parameters::link_request(link as u16, port, &value),
-                None => parameters::request(&upper, port, &value),
+                None => parameters::request(name, port, &value),
             };
             requests.extend(request);
         });
-        requests
     }
 
     pub(crate) fn panel(&self) -> &Panel {

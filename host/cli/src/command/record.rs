@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::Duration;
 
 use bench::world::Equipment;
+use rig::document::{Show, can_be_saved, is_file_name};
 use rig::{Command, DeviceHealth, InputSpec, Live, NoteLevel, Snapshot, TakeCommand};
 
 use crate::console::Console;
@@ -16,8 +17,8 @@ use crate::setup::{self, LiveSetup};
 
 const EXAMPLES: &str = "\
 Examples:
-  dialrig record shows/salute --device /dev/ttyUSB0 --take wave
-  dialrig record shows/salute --device /dev/ttyUSB0=sgi-dialbox --device /dev/ttyUSB1=graphire-serial --take wave --secs 30";
+  dialrig record shows/salute --device /dev/ttyUSB0 --take wave --out my-salute
+  dialrig record my-salute --device /dev/ttyUSB0=sgi-dialbox --device /dev/ttyUSB1=graphire-serial --take again --secs 30";
 
 /// Control cycles.
 const PERIOD: Duration = Duration::from_millis(10);
@@ -35,7 +36,8 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// A performance, kept as what the devices said, with the keys that come of it
 ///
 /// Begins when every device has answered, ends with Ctrl-C or after a while, and saves the show with the take, which
-/// can be done again through another network, and with a clip of its keys.
+/// can be done again through another network, and with a clip of its keys. SHOW itself is saved, as it is in the studio,
+/// unless --out says where.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -44,9 +46,15 @@ pub(crate) struct Args {
     /// A device to be recorded and its profile; `sgi-dialbox` unless said
     #[arg(long = "device", value_name = "DEVICE[=PROFILE]", required = true)]
     devices: Vec<String>,
-    /// What take and clip are called
-    #[arg(long, value_name = "NAME")]
+    /// What take and clip are called; an older take of that name is recorded over
+    #[arg(long, value_name = "NAME", value_parser = name)]
     take: String,
+    /// A folder for the show with the take; SHOW stays as it is
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The take's keys may take the place of a clip that is no take's, or the show in --out that of another
+    #[arg(long)]
+    replace: bool,
     /// For how long; until Ctrl-C when left out
     #[arg(long, value_name = "N", value_parser = number::positive)]
     secs: Option<f64>,
@@ -54,15 +62,20 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     let (show, folder) = setup::show(Some(&args.show), console)?;
+    let folder = target(args, &show, folder)?;
+    console.remark(format_args!("the take will be saved into {}", folder.display()));
     let mut inputs: Vec<InputSpec> = (1..)
         .zip(&args.devices)
         .map(|(n, device)| spec(n, device))
         .collect();
+    let equipment = equipment(&mut inputs);
+    let wanted = equipment.inputs().into_iter().chain(inputs.iter().cloned());
+    let names: Vec<String> = wanted.map(|spec| spec.name).collect();
     let setup = LiveSetup {
         show,
-        folder,
+        folder: Some(folder),
         profiles: setup::profiles()?,
-        equipment: equipment(&mut inputs),
+        equipment,
         inputs,
         ports: Vec::new(),
         period: PERIOD,
@@ -77,10 +90,46 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         console,
         snapshots,
         told: 0,
+        names,
     };
     let recorded = perform(args, &live, &mut watch, &interrupt);
     live.close();
     recorded.map(|()| Exit::Done)
+}
+
+fn name(text: &str) -> Result<String, String> {
+    if is_file_name(text) {
+        Ok(text.to_owned())
+    } else {
+        Err("a take's name has letters, digits, spaces, - and _".to_owned())
+    }
+}
+
+/// The folder that is saved. What would be refused after the performance is refused before it.
+fn target(args: &Args, show: &Show, own: Option<PathBuf>) -> Result<PathBuf, Failure> {
+    let clips = show.clips.contains_key(&args.take) || show.joint_clips.contains_key(&args.take);
+    if clips && !show.takes.contains_key(&args.take) && !args.replace {
+        let message = format!("the show has a clip {} that is no take's", args.take);
+        return Err(Failure::refused(message).with_hint("give the take another name, or --replace"));
+    }
+    let folder = match (&args.out, own) {
+        (Some(out), _) => {
+            if out.join("show.toml").exists() && !args.replace {
+                let message = format!("{}: there is a show already", out.display());
+                return Err(Failure::refused(message).with_hint("name another folder, or give --replace"));
+            }
+            out.clone()
+        }
+        (None, Some(own)) => own,
+        (None, None) => {
+            return Err(Failure::refused("this show has no folder").with_hint("name one with --out"));
+        }
+    };
+    can_be_saved(&folder).map_err(|error| match args.out {
+        Some(_) => error,
+        None => error.with_hint("name another folder with --out"),
+    })?;
+    Ok(folder)
 }
 
 /// Waits for the devices, records, and waits for the keys and for them to be saved.
@@ -88,14 +137,27 @@ fn perform(args: &Args, live: &Live, watch: &mut Watch<'_>, interrupt: &Interrup
     let begins = watch.until_ready(interrupt)?;
     live.send(Command::Take(TakeCommand::Start {
         name: args.take.clone(),
-        devices: Vec::new(),
+        devices: watch.names.clone(),
         tolerance: None,
     }));
-    watch.console.remark("recording; Ctrl-C ends it");
     let mut seen = begins.clone();
+    while seen.take.is_none() {
+        seen = watch.next()?;
+        if seen.at_secs > begins.at_secs + SETTLE_SECS {
+            return Err(Failure::refused(format!("take {} did not come about", args.take)));
+        }
+    }
+    watch.console.remark("recording; Ctrl-C ends it");
+    let mut alone_since = None;
     while !interrupt.came() && args.secs.is_none_or(|secs| seen.at_secs - begins.at_secs < secs) {
         seen = watch.next()?;
+        let alone = watch.mute(&seen).len() == watch.names.len();
+        alone_since = alone.then_some(alone_since.unwrap_or(seen.at_secs));
+        if alone_since.is_some_and(|since| seen.at_secs - since > ANSWER_SECS) {
+            break;
+        }
     }
+    let lost = watch.mute(&seen);
     live.send(Command::Take(TakeCommand::Stop));
     watch.console.remark("working out the keys");
     let asked_secs = seen.at_secs;
@@ -112,6 +174,10 @@ fn perform(args: &Args, live: &Live, watch: &mut Watch<'_>, interrupt: &Interrup
             return Err(Failure::refused("the show could not be saved"));
         }
     }
+    if lost.len() == watch.names.len() {
+        let message = format!("{} did not come back; what came before is kept", lost.join(", "));
+        return Err(Failure::device(message));
+    }
     Ok(())
 }
 
@@ -120,6 +186,8 @@ struct Watch<'c> {
     console: &'c Console,
     snapshots: Receiver<Arc<Snapshot>>,
     told: usize,
+    /// The devices that were asked for.
+    names: Vec<String>,
 }
 
 impl Watch<'_> {
@@ -139,14 +207,20 @@ impl Watch<'_> {
         Ok(seen)
     }
 
+    /// Addresses of devices that were asked for and do not answer.
+    fn mute(&self, seen: &Snapshot) -> Vec<String> {
+        let asked = seen
+            .devices
+            .iter()
+            .filter(|device| self.names.contains(&device.name));
+        let mute = asked.filter(|device| device.health != DeviceHealth::Present);
+        mute.map(|device| device.address.clone()).collect()
+    }
+
     fn until_ready(&mut self, interrupt: &Interrupt) -> Result<Arc<Snapshot>, Failure> {
         loop {
             let seen = self.next()?;
-            let mute = seen
-                .devices
-                .iter()
-                .filter(|device| device.health != DeviceHealth::Present);
-            let mute: Vec<&str> = mute.map(|device| device.address.as_str()).collect();
+            let mute = self.mute(&seen);
             if mute.is_empty() {
                 return Ok(seen);
             }

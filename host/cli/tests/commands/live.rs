@@ -93,13 +93,14 @@ fn simulators_and_scenarios_are_refused_in_words() {
 }
 
 /// A simulated device on a TCP port, and where it is.
-struct Simulated {
+pub(crate) struct Simulated {
     child: Child,
-    address: String,
+    pub(crate) address: String,
+    gone: bool,
 }
 
 impl Simulated {
-    fn start(args: &str) -> Self {
+    pub(crate) fn start(args: &str) -> Self {
         let mut child = dialrig(&format!("{args} --tcp 127.0.0.1:0"))
             .spawn()
             .expect("starts");
@@ -112,12 +113,28 @@ impl Simulated {
             .strip_prefix("ready ")
             .expect("it says where it is")
             .to_owned();
-        Self { child, address }
+        Self {
+            child,
+            address,
+            gone: false,
+        }
+    }
+}
+
+impl Simulated {
+    /// Takes the device away as it stands.
+    pub(crate) fn kill(&mut self) {
+        self.child.kill().expect("it runs");
+        self.child.wait().expect("it ran");
+        self.gone = true;
     }
 }
 
 impl Drop for Simulated {
     fn drop(&mut self) {
+        if self.gone {
+            return;
+        }
         interrupt(&self.child);
         let _ = self.child.wait();
     }

@@ -1,5 +1,6 @@
 //! The program as others call it: command lines, exit codes, and what appears on which stream.
 
+mod captures;
 mod curve;
 mod documents;
 mod figure;

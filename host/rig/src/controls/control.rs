@@ -2,6 +2,8 @@
 //!
 //! It must not know the network: what it is to send is returned, what it drives is told to it.
 
+use std::fmt::Write as _;
+
 use device_profiles::{Control as Group, ControlKind, ControlUnit};
 use ps300::value::{Kinds, Value};
 
@@ -12,6 +14,10 @@ use super::inlets::PAGES;
 use super::pickup::{Moment, Pickup, Way};
 use super::shown::VALUE_SECS;
 
+/// The mode of what springs back and goes by its speed.
+pub(crate) const RATE: &str = "rate";
+/// The longest time that one push is taken for, seconds: a host that slept goes on from where it was.
+const APART_SECS_MAX: f64 = 0.25;
 /// How long a control is drawn as live after it moved, seconds.
 const LIVE_SECS: f64 = 0.5;
 /// How long after a movement nothing is sent back to the control that made it, seconds: a hand that pauses is
@@ -52,10 +58,18 @@ pub(crate) struct Control {
     /// Where it is, in its unit.
     pub(crate) value: f64,
     moved_secs: Option<f64>,
+    /// When it last said that it is elsewhere, or where it is at all: a hand may be on it.
+    heard_secs: Option<f64>,
     /// A finger is on it, where it can tell.
     pub(crate) touched: bool,
     /// The place of the finger on a ring, counts.
-    finger: Option<i32>,
+    pub(super) finger: Option<i32>,
+    /// What springs back goes by its speed: it sends how far it has come, as a dial does, not where it is.
+    rate: bool,
+    /// Until when it has sent how far it came.
+    pub(super) sent_secs: Option<f64>,
+    /// It was pushed when it began to drive what it drives: it must come to its middle first.
+    pub(super) waits: bool,
     /// What it drives on the present page.
     pub(crate) bound: Vec<Bound>,
     /// Where the first of that stands, as a share of its own range; beyond it where it cannot get.
@@ -66,11 +80,17 @@ pub(crate) struct Control {
     labels: [String; PAGES as usize],
 }
 
-/// Where a parameter stands.
+/// A parameter as people read it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Reading {
     /// What people call it.
     pub(crate) name: String,
+    pub(crate) standing: Standing,
+}
+
+/// Where a parameter stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Standing {
     /// In its unit; none where it cannot be read.
     pub(crate) value: Option<f64>,
     pub(crate) unit: &'static str,
@@ -79,15 +99,48 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
+    /// Of something that nobody has looked at yet.
+    pub(crate) fn of(name: String) -> Self {
+        Self {
+            name,
+            standing: Standing::default(),
+        }
+    }
+
+    /// Adds name and value, or what of it there is room for; the value goes before the name where it is `moved`.
+    fn write(&self, out: &mut String, characters: usize, moved: bool) {
+        let start = out.len();
+        out.push_str(&self.name);
+        let named = out.len();
+        out.push(' ');
+        if !self.standing.write(out) {
+            out.truncate(named);
+            return;
+        }
+        let both = out.get(start..).unwrap_or_default();
+        if characters == 0 || both.chars().count() <= characters {
+            return;
+        }
+        if moved {
+            out.drain(start..=named);
+        } else {
+            out.truncate(named);
+        }
+    }
+}
+
+impl Standing {
     /// The value as a share of the range.
     pub(crate) fn share(&self) -> Option<f64> {
         let [low, high] = self.range.filter(|[low, high]| high > low)?;
         Some(((self.value? - low) / (high - low)).clamp(0.0, 1.0))
     }
 
-    /// The value as people read it, in few characters.
-    pub(crate) fn words(&self) -> Option<String> {
-        let value = self.value?;
+    /// Adds the value as people read it, in few characters; false where it is not known.
+    fn write(&self, out: &mut String) -> bool {
+        let Some(value) = self.value else {
+            return false;
+        };
         let places = if value.abs() >= 100.0 {
             0
         } else {
@@ -96,14 +149,10 @@ impl Reading {
         // `+ 0.0`, rounded, for a zero without a sign.
         let factor = 10_f64.powi(places as i32);
         let rounded = (value * factor).round() / factor + 0.0;
-        Some(format!(
-            "{rounded:.places$}{}",
-            if self.unit.len() == 1 {
-                format!(" {}", self.unit)
-            } else {
-                self.unit.to_owned()
-            }
-        ))
+        let space = if self.unit.len() == 1 { " " } else { "" };
+        // Writing to a string cannot fail.
+        let _ = write!(out, "{rounded:.places$}{space}{}", self.unit);
+        true
     }
 }
 
@@ -139,8 +188,12 @@ impl Control {
             button: Button::default(),
             value: 0.0,
             moved_secs: None,
+            heard_secs: None,
             touched: false,
             finger: None,
+            rate: false,
+            sent_secs: None,
+            waits: false,
             bound: Vec::new(),
             target: None,
             reading: None,
@@ -187,6 +240,7 @@ impl Control {
         }
         if known != Some(share) {
             self.value = share;
+            self.heard_secs = Some(at.secs);
             self.moved_secs = known.map_or(self.moved_secs, |_| Some(at.secs));
         }
         self.pickup.hear(share, self.moment(at)).map(Value::Real)
@@ -198,6 +252,16 @@ impl Control {
         if deflection != self.value {
             self.moved_secs = Some(at.secs);
         }
+        if self.rate {
+            let went = self.pass(at.secs, at.fine);
+            self.pickup.place = Some(f64::midpoint(deflection, 1.0));
+            if deflection != self.value {
+                self.moved_secs = Some(at.secs);
+            }
+            self.value = deflection;
+            self.waits &= deflection != 0.0;
+            return went;
+        }
         let was = std::mem::replace(&mut self.value, deflection);
         let share = f64::midpoint(deflection, 1.0);
         let set = self.pickup.hear(share, self.moment(at));
@@ -205,6 +269,24 @@ impl Control {
             Some(_) => set.map(|share| Value::Real(share * 2.0 - 1.0)),
             None => (was != deflection).then_some(Value::Real(deflection)),
         }
+    }
+
+    /// Time passes. What goes by its speed has come so far since, in turns: one a second where it is pushed all the way.
+    pub(crate) fn pass(&mut self, secs: f64, fine: bool) -> Option<Value> {
+        if !self.rate {
+            return None;
+        }
+        let since = self.sent_secs.replace(secs).filter(|_| !self.waits)?;
+        let apart_secs = (secs - since).clamp(0.0, APART_SECS_MAX);
+        let gear = self.gear.factor * if fine { super::pickup::FINE } else { 1.0 };
+        let turns = self.value * apart_secs * gear;
+        (turns != 0.0).then_some(Value::Real(turns))
+    }
+
+    /// It drives something else now, or what it drives was loaded anew.
+    pub(crate) fn release(&mut self) {
+        self.pickup.release();
+        self.waits = self.rate && self.value != 0.0;
     }
 
     /// A finger is at a place of a ring or strip, or has left it.
@@ -239,34 +321,29 @@ impl Control {
 
     /// Where what it drives stands, as a share: of its own range where it has one, else of the parameter's.
     pub(crate) fn shown_share(&self) -> Option<f64> {
-        if self.is_absolute() {
+        if self.is_absolute() && !self.rate {
             return self.target.map(|it| it.clamp(0.0, 1.0));
         }
-        self.reading.as_ref().and_then(Reading::share)
+        self.reading.as_ref().and_then(|reading| reading.standing.share())
     }
 
     /// What stands beside it on a page: the network's label, else the name of what it drives, and the value while
     /// it is moved; both where there is room for both.
-    pub(crate) fn label(&self, page: u8, characters: usize, now_secs: f64) -> String {
+    pub(crate) fn write_label(&self, out: &mut String, page: u8, characters: usize, now_secs: f64) {
         let own = self.labels.get(usize::from(page).wrapping_sub(1));
         if let Some(own) = own.filter(|it| !it.is_empty()) {
-            return own.clone();
+            out.push_str(own);
+        } else if let Some(reading) = &self.reading {
+            let moved = self.moved_secs.is_some_and(|at| now_secs - at < VALUE_SECS);
+            reading.write(out, characters, moved);
         }
-        let Some(reading) = &self.reading else {
-            return String::new();
-        };
-        let Some(value) = reading.words() else {
-            return reading.name.clone();
-        };
-        let both = format!("{} {value}", reading.name);
-        let moved = self.moved_secs.is_some_and(|at| now_secs - at < VALUE_SECS);
-        if characters == 0 || both.chars().count() <= characters {
-            both
-        } else if moved {
-            value
-        } else {
-            reading.name.clone()
-        }
+    }
+
+    /// The same on its own, with room for all.
+    pub(crate) fn label(&self, page: u8, now_secs: f64) -> String {
+        let mut label = String::new();
+        self.write_label(&mut label, page, 0, now_secs);
+        label
     }
 
     fn moment(&self, at: At) -> Moment {
@@ -283,13 +360,14 @@ impl Control {
         self.pickup.lose();
         self.touched = false;
         self.finger = None;
-        let was = self.value;
-        let springs_back = self.kind == ControlKind::Axis && self.target.is_none();
-        if springs_back && was != 0.0 {
-            self.value = 0.0;
-            return Some(Value::Real(0.0));
+        let springs_back = self.kind == ControlKind::Axis && (self.rate || self.target.is_none());
+        if !springs_back {
+            return None;
         }
-        None
+        let was = std::mem::take(&mut self.value);
+        self.waits = false;
+        // What went by its speed stands still where it got to.
+        (was != 0.0 && !self.rate).then_some(Value::Real(0.0))
     }
 
     /// Whether it has a place of its own, for which it has to be picked up.
@@ -303,25 +381,28 @@ impl Control {
     /// Whether its next movement goes to what it drives.
     pub(crate) fn picked_up(&self) -> bool {
         !self.is_absolute()
+            || (self.rate && !self.waits)
             || self.pickup.holds()
-            || (self.kind == ControlKind::Axis && self.target.is_none())
+            || (self.kind == ControlKind::Axis && !self.rate && self.target.is_none())
     }
 
     /// Where it would take hold, in its unit, as long as it has not.
     pub(crate) fn awaits(&self) -> Option<f64> {
-        let share = self.target.filter(|_| !self.picked_up())?;
+        let share = self.target.filter(|_| !self.rate && !self.picked_up())?;
         Some(match self.ends()? {
             [low, high] => low + (high - low) * share,
         })
     }
 
     pub(crate) fn is_live(&self, now_secs: f64) -> bool {
-        self.moved_secs.is_some_and(|at| now_secs - at < LIVE_SECS)
+        let goes = self.rate && self.value != 0.0;
+        goes || self.moved_secs.is_some_and(|at| now_secs - at < LIVE_SECS)
     }
 
     /// Whether a hand is on it, as far as that can be told: nothing is sent back to it then.
     pub(crate) fn is_in_hand(&self, now_secs: f64) -> bool {
-        self.touched || self.moved_secs.is_some_and(|at| now_secs - at < OWN_SECS)
+        let mut said = [self.heard_secs, self.moved_secs].into_iter().flatten();
+        self.touched || said.any(|at| now_secs - at < OWN_SECS)
     }
 
     /// A value of its output as a share of its range, and back.
@@ -353,6 +434,7 @@ impl Control {
         match self.kind {
             ControlKind::Button => self.button.mode.word(),
             ControlKind::Dial | ControlKind::Ring => "relative",
+            ControlKind::Axis if self.rate => RATE,
             _ => self.pickup.way().word(),
         }
     }
@@ -361,6 +443,7 @@ impl Control {
     pub(crate) fn set_mode(&mut self, word: &str) -> bool {
         let is = |known: &str| known.eq_ignore_ascii_case(word);
         if word.is_empty() {
+            self.go_by_speed(false);
             self.button.mode = super::button::ButtonMode::default();
             self.pickup.choose(way_built(self.kind));
             return true;
@@ -371,10 +454,22 @@ impl Control {
         let way = Way::WORDS.iter().find(|(known, _)| is(known));
         match (self.kind, mode, way) {
             (ControlKind::Button, Some((_, mode)), _) => self.button.mode = *mode,
-            (_, _, Some((_, way))) if self.is_absolute() => self.pickup.choose(*way),
+            (_, _, Some((_, way))) if self.is_absolute() => {
+                self.go_by_speed(false);
+                self.pickup.choose(*way);
+            }
+            (ControlKind::Axis, ..) if is(RATE) => self.go_by_speed(true),
             _ => return false,
         }
         true
+    }
+
+    fn go_by_speed(&mut self, on: bool) {
+        if self.rate != on {
+            self.rate = on;
+            self.sent_secs = None;
+            self.release();
+        }
     }
 
     /// Takes a dead zone; none is what it was built with.

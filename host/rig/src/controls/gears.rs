@@ -53,7 +53,7 @@ pub struct Gear {
     pub factor: f64,
     /// And by speed.
     pub curve: Curve,
-    turned_secs: Option<f64>,
+    pub(super) turned_secs: Option<f64>,
 }
 
 impl Default for Gear {

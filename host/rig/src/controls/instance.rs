@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use device::codec::{InputEvent, Surface};
-use device_profiles::{ControlClass, InputKind, InputProfile, OutputKind};
+use device_profiles::{ControlClass, ControlKind, InputKind, InputProfile, OutputKind};
 use ps300::machine::SourceId;
 use ps300::value::{Kinds, Value};
 
@@ -181,6 +181,12 @@ impl Instance {
         }
     }
 
+    /// What its outputs show, to be told to somebody who does not know.
+    pub(crate) fn shows(&self) -> Vec<device::codec::Feedback> {
+        let outputs = self.outputs.iter();
+        outputs.filter_map(|it| it.shows(&self.controls)).collect()
+    }
+
     fn at(&mut self, class: ControlClass, number: u16) -> Option<&mut Control> {
         let place = *self.classes.get(&class)?.get(usize::from(number))?;
         self.controls.get_mut(place)
@@ -234,7 +240,7 @@ impl Instance {
     /// Other things are driven from now on.
     pub(crate) fn release(&mut self) {
         for control in &mut self.controls {
-            control.pickup.release();
+            control.release();
             control.bound.clear();
             control.target = None;
             control.reading = None;
@@ -339,9 +345,12 @@ impl Instance {
 }
 
 fn modes(control: &Control) -> String {
-    if control.is_absolute() {
-        super::pickup::Way::WORDS.map(|(word, _)| word).join(", ")
-    } else if control.kind == device_profiles::ControlKind::Button {
+    let ways = super::pickup::Way::WORDS.map(|(word, _)| word).join(", ");
+    if control.kind == ControlKind::Axis {
+        format!("{ways}, rate")
+    } else if control.is_absolute() {
+        ways
+    } else if control.kind == ControlKind::Button {
         super::button::ButtonMode::WORDS.map(|(word, _)| word).join(", ")
     } else {
         "none".to_owned()

@@ -7,7 +7,10 @@ use device_profiles::ControlKind;
 use ps300::language::{Command, Definition, Disconnection, Input, InputOf, Name, OutputOf, Payload, print};
 use ps300::value::Value;
 
+use super::button::ButtonMode;
+use super::control::RATE;
 use super::drive::Sort;
+use super::pickup::Way;
 
 /// What was touched since learning began.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,6 +28,8 @@ pub(crate) struct Hand<'a> {
     pub(crate) instance: &'a str,
     pub(crate) number: u8,
     pub(crate) kind: ControlKind,
+    /// It springs back and goes by its speed, as a dial that turns for as long as it is pushed.
+    pub(crate) rate: bool,
 }
 
 /// The other end.
@@ -78,6 +83,7 @@ pub(crate) fn connection(hand: Hand<'_>, goal: &Goal<'_>) -> Result<Vec<Command>
             let [low, high] = goal.range.unwrap_or([0.0, 1.0]);
             (inlet, scaling(high - low, low))
         }
+        ControlKind::Axis if hand.rate => turned(goal)?,
         ControlKind::Axis => {
             let inlet = goes_to(goal)?;
             let [low, high] = goal.range.unwrap_or([-1.0, 1.0]);
@@ -215,11 +221,21 @@ fn pressed(goal: &Goal<'_>) -> (u8, Vec<Stage>) {
     }
 }
 
-/// The mode in which a button is of use there.
-pub(crate) fn mode_for(sort: Option<Sort>) -> super::button::ButtonMode {
-    match sort {
-        Some(Sort::Trigger | Sort::Step) => super::button::ButtonMode::Press,
-        _ => super::button::ButtonMode::Toggle,
+/// Whether what is learnt goes by its speed: what springs back does, unless it was given another mode than it has by
+/// itself, or a range to be placed in.
+pub(crate) fn goes_by_speed(kind: ControlKind, mode: &str, has_range: bool) -> bool {
+    let unchosen = mode == RATE || mode == Way::default().word();
+    kind == ControlKind::Axis && unchosen && !has_range
+}
+
+/// The mode in which a control is of use there; the present one where that is as good.
+pub(crate) fn mode_for<'m>(hand: Hand<'_>, sort: Option<Sort>, mode: &'m str) -> &'m str {
+    match (hand.kind, sort) {
+        (ControlKind::Button, Some(Sort::Trigger | Sort::Step)) => ButtonMode::Press.word(),
+        (ControlKind::Button, _) => ButtonMode::Toggle.word(),
+        (ControlKind::Axis, _) if hand.rate => RATE,
+        (ControlKind::Axis, _) if mode == RATE => Way::default().word(),
+        _ => mode,
     }
 }
 
@@ -247,6 +263,7 @@ mod tests {
             instance: "NANO",
             number: 3,
             kind,
+            rate: false,
         };
         connection(hand, goal).map_or_else(|why| why, |commands| text(&commands))
     }

@@ -19,6 +19,7 @@ pub(crate) mod pages;
 pub mod pickup;
 pub mod rhythm;
 pub(crate) mod shown;
+pub mod standing;
 pub(crate) mod tablet;
 pub mod view;
 
@@ -27,11 +28,11 @@ use std::collections::BTreeMap;
 use device::codec::{Feedback, InputEvent, Surface};
 use device_profiles::{ControlClass, InputProfile};
 use ps300::language::Name;
-use ps300::machine::{Machine, Panel};
+use ps300::machine::{Machine, Panel, SourceId};
 use ps300::value::Value;
 
 use bound::{Bound, Wires};
-use control::{At, MEANT, Reading};
+use control::{At, MEANT, Reading, Standing};
 use drive::Sort;
 use instance::{Instance, Touched};
 use learn::Learning;
@@ -108,23 +109,24 @@ impl Controls {
                 for control in &mut instance.controls {
                     let bound = self.wires.bound(&page, control.number);
                     if bound != control.bound {
+                        let first = bound.first().map(|it| drive::short(it.to.as_str(), it.inlet));
+                        control.reading = first.map(Reading::of);
                         control.bound = bound;
-                        control.pickup.release();
+                        control.release();
                     }
                 }
             }
             for control in &mut instance.controls {
-                let readings: Vec<_> = control
-                    .bound
-                    .iter()
-                    .map(|bound| reading(machine, bound, stands))
-                    .collect();
-                control.target = readings
-                    .iter()
-                    .find_map(|(_, sent)| *sent)
-                    .map(|sent| control.share_of(sent));
-                let first = readings.into_iter().next();
-                control.reading = first.map(|(reading, _)| reading);
+                let (mut sent, mut first) = (None, None);
+                for bound in &control.bound {
+                    let (standing, back) = standing(machine, bound, stands);
+                    first = first.or(Some(standing));
+                    sent = sent.or(back);
+                }
+                if let (Some(reading), Some(first)) = (&mut control.reading, first) {
+                    reading.standing = first;
+                }
+                control.target = sent.map(|sent| control.share_of(sent));
                 control.pickup.look(step, control.target);
             }
         }
@@ -146,6 +148,19 @@ impl Controls {
         instance.rhythm.hear(at.secs);
         if let Some(touched) = instance.hear(event, at, surface, emit) {
             self.touched(place, touched);
+        }
+    }
+
+    /// Time passes: what is pushed and goes by its speed goes on. What it sends goes to `emit`, with its sender.
+    pub(crate) fn pass(&mut self, secs: f64, emit: &mut dyn FnMut(SourceId, u8, Value)) {
+        for instance in self.instances.iter_mut().filter(|it| it.present) {
+            let fine = self.fine || instance.fine;
+            let Some(from) = instance.source() else { continue };
+            for control in &mut instance.controls {
+                if let Some(value) = control.pass(secs, fine) {
+                    emit(from, control.number, value);
+                }
+            }
         }
     }
 
@@ -182,21 +197,25 @@ impl Controls {
         }
     }
 
+    /// The link or joint that pages went by.
+    pub(crate) fn focus(&self) -> &str {
+        &self.focus
+    }
+
+    /// Pages went by this; none comes up for it.
+    pub(crate) fn resume_focus(&mut self, focus: &str) {
+        focus.clone_into(&mut self.focus);
+    }
+
     /// What devices have to be told so that they show what they are to show: device, feedback.
     pub(crate) fn show(&mut self, panel: &Panel, now_secs: f64, tell: &mut dyn FnMut(&str, &Feedback)) {
-        let labels: Vec<&str> = panel
-            .dial_labels
-            .iter()
-            .chain(&panel.key_labels)
-            .map(String::as_str)
-            .collect();
         for instance in self.instances.iter_mut().filter(|it| it.present) {
             let is_desk = instance.is_desk && instance.tablet.is_none();
             let light = Light {
                 controls: &instance.controls,
                 page: instance.pages.now,
                 now_secs,
-                panel: is_desk.then_some((&labels[..], u64::from(panel.lamps))),
+                panel: is_desk.then_some(panel),
             };
             for output in &mut instance.outputs {
                 if let Some(feedback) = output.change(&light) {
@@ -267,14 +286,18 @@ fn control_views(instance: &Instance, now_secs: f64) -> Vec<ControlView> {
         awaits: control.awaits(),
         live: control.is_live(now_secs),
         bound: control.bound.iter().map(Bound::words).collect(),
-        label: control.label(page, 0, now_secs),
+        label: control.label(page, now_secs),
         mode: control.mode(),
     });
     surface.chain(controls).collect()
 }
 
 /// Where something that is driven stands: for people, and as what the control would send.
-fn reading(machine: &Machine, bound: &Bound, stands: &dyn Fn(&str, u8) -> Stands) -> (Reading, Option<f64>) {
+fn standing(
+    machine: &Machine,
+    bound: &Bound,
+    stands: &dyn Fn(&str, u8) -> Stands,
+) -> (Standing, Option<f64>) {
     let name = bound.to.as_str();
     let drive = drive::drive(name, bound.inlet);
     let (value, range) = match drive::read_at(name, bound.inlet) {
@@ -285,13 +308,12 @@ fn reading(machine: &Machine, bound: &Bound, stands: &dyn Fn(&str, u8) -> Stands
     let sent = value
         .filter(|_| goes_there)
         .and_then(|value| bound.back(machine, value));
-    let reading = Reading {
-        name: drive::short(name, bound.inlet),
+    let standing = Standing {
         value,
         unit: drive.map_or("", |it| it.unit),
         range,
     };
-    (reading, sent)
+    (standing, sent)
 }
 
 /// The last literal messages that a program sends to inlets of devices: what undo has to send again.

@@ -11,7 +11,7 @@ pub(crate) struct Pages {
     pub(crate) now: u8,
     /// Whether a selection may change it.
     pub(crate) follows: bool,
-    focus: [String; PAGES as usize],
+    pub(super) focus: [String; PAGES as usize],
 }
 
 impl Default for Pages {

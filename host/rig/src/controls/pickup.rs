@@ -67,13 +67,13 @@ pub struct Moment {
 pub struct Pickup {
     way: Way,
     /// Where the control is, whether or not that was taken; none before it said.
-    place: Option<f64>,
-    moved_secs: Option<f64>,
+    pub(super) place: Option<f64>,
+    pub(super) moved_secs: Option<f64>,
     /// What it set last, in which step.
-    set: Option<(f64, u64)>,
+    pub(super) set: Option<(f64, u64)>,
     /// Where what it drives stood after that.
-    answer: Option<f64>,
-    holds: bool,
+    pub(super) answer: Option<f64>,
+    pub(super) holds: bool,
 }
 
 impl Pickup {

@@ -4,8 +4,11 @@
 //! place of its own while a hand is on it; afterwards it gets what it then lacks. Rings around dials without end are
 //! no echo: the device cannot know what they are to show.
 
+use std::fmt::Write as _;
+
 use device::codec::{Feedback, RingStyle};
 use device_profiles::{InputProfile, OutputKind};
+use ps300::machine::Panel;
 use ps300::value::Value;
 
 use super::control::Control;
@@ -45,6 +48,8 @@ pub(crate) struct Output {
     told: [Option<Value>; PAGES as usize],
     shown: Option<Sent>,
     tested_until: Option<f64>,
+    /// Where a text is put together; kept, so that looking does not allocate.
+    text: String,
 }
 
 /// What a device is shown with.
@@ -53,8 +58,8 @@ pub(crate) struct Light<'a> {
     /// From 1.
     pub(crate) page: u8,
     pub(crate) now_secs: f64,
-    /// Texts and lamps of the panel, by number of label and lamp, where the device is the desk.
-    pub(crate) panel: Option<(&'a [&'a str], u64)>,
+    /// Texts and lamps by number of label and lamp, where the device is the desk.
+    pub(crate) panel: Option<&'a Panel>,
 }
 
 /// All outputs of a profile, each beside its control.
@@ -92,6 +97,7 @@ pub(crate) fn outputs(profile: &InputProfile, controls: &[Control]) -> Vec<Outpu
                 told: Default::default(),
                 shown: None,
                 tested_until: None,
+                text: String::new(),
             });
             *count += 1;
         }
@@ -133,6 +139,9 @@ impl Output {
         if is_own && in_hand {
             return None;
         }
+        if self.kind == OutputKind::Label {
+            return self.change_label(light, control, tested);
+        }
         let want = if tested {
             self.tried(light)
         } else {
@@ -147,24 +156,66 @@ impl Output {
         feedback.filter(|_| !begins_dark)
     }
 
+    fn change_label(
+        &mut self,
+        light: &Light<'_>,
+        control: Option<&Control>,
+        tested: bool,
+    ) -> Option<Feedback> {
+        let mut text = std::mem::take(&mut self.text);
+        text.clear();
+        if tested {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "TEST {}", self.of_kind + 1);
+            let room = if self.characters == 0 {
+                usize::MAX
+            } else {
+                self.characters
+            };
+            let end = text.char_indices().nth(room).map(|(end, _)| end);
+            text.truncate(end.unwrap_or(text.len()));
+        } else {
+            self.write_label(&mut text, light, control);
+        }
+        let (is_shown, was_shown) = match &self.shown {
+            Some(Sent::Label(shown)) => (*shown == text, true),
+            _ => (false, false),
+        };
+        let feedback = (!is_shown && (was_shown || !text.is_empty())).then(|| Feedback::Label {
+            control: self.of_kind,
+            text: text.clone(),
+        });
+        if !is_shown {
+            self.shown = Some(Sent::Label(text.clone()));
+        }
+        self.text = text;
+        feedback
+    }
+
+    /// What the network sends, else what the panel has, else what the control says of itself.
+    fn write_label(&self, text: &mut String, light: &Light<'_>, control: Option<&Control>) {
+        let told = self.told.get(usize::from(light.page).wrapping_sub(1));
+        let number = usize::from(self.of_kind);
+        let panel = light.panel.and_then(|panel| {
+            let mut labels = panel.dial_labels.iter().chain(&panel.key_labels);
+            labels.nth(number)
+        });
+        match (told, panel.filter(|it| !it.is_empty()), control) {
+            (Some(Some(Value::String(own))), ..) if !own.is_empty() => text.push_str(own),
+            (_, Some(own), _) => text.push_str(own),
+            (_, _, Some(control)) => {
+                control.write_label(text, light.page, self.characters, light.now_secs);
+            }
+            _ => {}
+        }
+    }
+
     fn want(&self, light: &Light<'_>, control: Option<&Control>) -> Option<Sent> {
         let told = self.told.get(usize::from(light.page).wrapping_sub(1))?.as_ref();
         let bound = control.and_then(Control::shown_share);
         Some(match self.kind {
-            OutputKind::Label => {
-                let panel = light
-                    .panel
-                    .and_then(|(labels, _)| labels.get(usize::from(self.of_kind)));
-                let panel = panel.filter(|it| !it.is_empty());
-                Sent::Label(match (told, panel, control) {
-                    (Some(Value::String(text)), ..) if !text.is_empty() => text.to_string(),
-                    (_, Some(text), _) => (*text).to_owned(),
-                    (_, _, Some(control)) => control.label(light.page, self.characters, light.now_secs),
-                    _ => String::new(),
-                })
-            }
             OutputKind::Lamp => {
-                let panel = light.panel.map_or(0, |(_, lamps)| lamps);
+                let panel = light.panel.map_or(0, |panel| u64::from(panel.lamps));
                 let by_panel = panel
                     .checked_shr(self.of_kind.into())
                     .is_some_and(|bits| bits & 1 == 1);
@@ -183,7 +234,7 @@ impl Output {
                 Sent::Ring(lit.map(|share| self.step(share)))
             }
             OutputKind::Motor => Sent::Motor(self.step(told.and_then(Value::as_number).or(bound)?)),
-            OutputKind::Picture | OutputKind::Haptic | OutputKind::Level => return None,
+            OutputKind::Label | OutputKind::Picture | OutputKind::Haptic | OutputKind::Level => return None,
         })
     }
 
@@ -192,19 +243,11 @@ impl Output {
         let left = self.tested_until.map_or(0.0, |until| until - light.now_secs);
         let share = (1.0 - left / TEST_SECS).clamp(0.0, 1.0);
         Some(match self.kind {
-            OutputKind::Label => {
-                let text = format!("TEST {}", self.of_kind + 1);
-                Sent::Label(if self.characters == 0 {
-                    text
-                } else {
-                    text.chars().take(self.characters).collect()
-                })
-            }
             OutputKind::Lamp => Sent::Lamp(255),
             OutputKind::Ring => Sent::Ring(Some(self.step(share))),
             // There and back, not to an end.
             OutputKind::Motor => Sent::Motor(self.step(0.25 + share / 2.0)),
-            OutputKind::Picture | OutputKind::Haptic | OutputKind::Level => return None,
+            OutputKind::Label | OutputKind::Picture | OutputKind::Haptic | OutputKind::Level => return None,
         })
     }
 
@@ -238,6 +281,12 @@ impl Output {
                 value: control?.counts_at(share(*step)),
             },
         })
+    }
+
+    /// What it shows, as it was told; nothing where it was never told anything that can be seen.
+    pub(crate) fn shows(&self, controls: &[Control]) -> Option<Feedback> {
+        let shown = self.shown.as_ref().filter(|shown| !shown.is_nothing())?;
+        self.feedback(shown, self.control.and_then(|place| controls.get(place)))
     }
 
     /// What it shows, in words.

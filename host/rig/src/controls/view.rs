@@ -35,6 +35,25 @@ pub struct DeviceView {
     pub controls: Vec<ControlView>,
     /// What it can show, in the order of the profile.
     pub outputs: Vec<OutputView>,
+    /// The capture that is being written of it, or the last one.
+    pub capture: Option<CaptureView>,
+}
+
+/// What a device and the rig say to each other, as it is written into a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CaptureView {
+    /// The file: while it is written with `.part` behind its name, whole without.
+    pub file: String,
+    /// Whether it is being written.
+    pub running: bool,
+    /// For how long it was, seconds.
+    pub secs: f64,
+    /// Bytes in the file.
+    pub bytes: u64,
+    /// Events in it.
+    pub events: u64,
+    /// Why it ended by itself, if it did; the file has what came before.
+    pub trouble: Option<String>,
 }
 
 /// How an input device is.

@@ -35,6 +35,5 @@ pub use fault::{FileError, FileErrors, Findings};
 pub use figure::{FigureDoc, FigureTexts};
 pub use folder::{Loaded, load};
 pub use frames::ExportError;
-pub use save::{autosave, from_texts, save, texts};
-pub(crate) use show::is_file_name;
-pub use show::{NetworkFile, Show};
+pub use save::{autosave, can_be_saved, from_texts, save, texts};
+pub use show::{NetworkFile, Show, is_file_name};

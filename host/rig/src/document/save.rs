@@ -23,6 +23,16 @@ pub fn save(show: &Show, folder: &Path) -> Result<(), FileErrors> {
     save_through(&mut RealDisk, show, folder)
 }
 
+/// Whether something can be written into a folder, which is made if need be: to be asked before hours of work, not after.
+pub fn can_be_saved(folder: &Path) -> Result<(), FileError> {
+    let mut disk = RealDisk;
+    let tried = disk.make_folder(folder).and_then(|()| {
+        let aside = disk.write_aside(folder, "")?;
+        disk.remove(&aside)
+    });
+    tried.map_err(|error| cannot(folder, "write into", &error))
+}
+
 /// The files a show is saved as: path inside the show folder, with forward slashes, to text.
 pub fn texts(show: &Show) -> Result<BTreeMap<String, String>, FileErrors> {
     let file = |file: NewFile| (file.path.to_string_lossy().replace('\\', "/"), file.text);

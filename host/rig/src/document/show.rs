@@ -144,7 +144,7 @@ impl Show {
 }
 
 /// Whether a name can also be a file's, on every system: letters, digits, spaces, `-`, `_` and inner dots.
-pub(crate) fn is_file_name(name: &str) -> bool {
+pub fn is_file_name(name: &str) -> bool {
     let plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.');
     !name.is_empty()
         && name.len() <= 100

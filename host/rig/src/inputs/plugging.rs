@@ -145,7 +145,7 @@ impl Inputs {
             return None;
         }
         let line = ports
-            .open_input(&found.address, None)
+            .open_device(&spec.name, &found.address, None)
             .map_err(|error| error.to_string());
         match line.and_then(|line| Seat::described(spec, line)) {
             Ok(seat) => Some(seat),

@@ -53,7 +53,8 @@ impl Recorder {
     pub(crate) fn step(&self, now: Instant, commands: &[Command]) {
         self.lock().line(&Record::Step {
             now: now.as_nanos(),
-            commands: commands.to_vec(),
+            // What is written into other files is done once.
+            commands: commands.iter().filter(|it| !it.is_capture()).cloned().collect(),
         });
     }
 

@@ -54,6 +54,8 @@ impl Rig {
             | Command::Controls(_)
             | Command::TestOutput { .. }
             | Command::PinDevice { .. } => self.control(command),
+            Command::StartCapture { devices } => self.start_captures(devices),
+            Command::StopCapture { devices } => self.stop_captures(devices),
             Command::Take(take) => self.ask_for_take(take),
             Command::Save => self.save(),
         };

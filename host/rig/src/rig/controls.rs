@@ -58,9 +58,15 @@ impl Rig {
     /// Where everything stands that controls may drive, and which page is up.
     fn refresh_controls(&mut self) {
         self.meet_new_devices();
-        let focus = self.focus();
         let mut controls = std::mem::take(&mut self.controls);
-        controls.selected(&focus);
+        controls.selected(self.focus());
+        self.controls = controls;
+        self.refresh_bindings();
+    }
+
+    /// What controls drive, and where that stands.
+    pub(super) fn refresh_bindings(&mut self) {
+        let mut controls = std::mem::take(&mut self.controls);
         controls.refresh(self.wiring.machine(), self.steps, &|name, inlet| {
             self.stands(name, inlet)
         });
@@ -71,16 +77,26 @@ impl Rig {
         self.refresh_controls();
         let mut heard = std::mem::take(&mut self.heard);
         let mut changes = Vec::new();
-        let mut ports = self.takes.tapes.at(self.ports.as_mut(), &self.clock, self.began);
+        let mut ports = self
+            .takes
+            .tapes
+            .at(self.ports.as_mut(), &self.clock, self.began, self.now);
         self.inputs.poll(self.now, &mut ports, &mut heard, &mut |change| {
             changes.push(change);
         });
         // What was plugged in just now may have spoken already.
         self.meet_new_devices();
+        if !self.captures.is_idle() {
+            self.captures.take_in(&self.takes.tapes);
+        }
         for it in heard.drain(..) {
             let Some(name) = self.inputs.name(it.seat) else {
                 continue;
             };
+            if !self.captures.is_idle() {
+                self.captures
+                    .event(name, it.event.at.since(self.began), it.event.what);
+            }
             if let Some(place) = self.controls.find(name) {
                 self.hear(place, &it.event, it.source);
             }
@@ -89,6 +105,16 @@ impl Rig {
         for change in changes {
             self.noticed(&change);
         }
+        self.pass_time();
+    }
+
+    /// What is pushed and goes by its speed goes on.
+    fn pass_time(&mut self) {
+        let (secs, wiring) = (self.secs(), &mut self.wiring);
+        self.controls.pass(secs, &mut |from, output, value| {
+            wiring.pass_to(secs);
+            wiring.hear_from(from.outlet(output), value);
+        });
     }
 
     /// Takes an event at its own time, not later than now.
@@ -148,7 +174,9 @@ impl Rig {
 
     /// Does what arrived at inlets of devices.
     pub(super) fn take_device_messages(&mut self) {
-        for message in self.wiring.device_messages() {
+        let mut messages = std::mem::take(&mut self.device_messages);
+        self.wiring.device_messages(&mut messages);
+        for message in messages.drain(..) {
             self.tell_device(
                 message.device,
                 message.inlet,
@@ -156,6 +184,7 @@ impl Rig {
                 Some(&message.value),
             );
         }
+        self.device_messages = messages;
     }
 
     fn tell_device(&mut self, device: usize, inlet: Inlet, number: u8, value: Option<&Value>) {
@@ -189,30 +218,39 @@ impl Rig {
 
     pub(super) fn show_on_devices(&mut self) {
         let secs = self.secs();
-        let inputs = &mut self.inputs;
+        let now = self.since_began();
+        let (inputs, captures, tapes) = (&mut self.inputs, &mut self.captures, &self.takes.tapes);
         self.controls
             .show(self.wiring.panel(), secs, &mut |device, feedback| {
+                let captured = captures.runs(device);
+                if captured {
+                    captures.show(device, now, feedback);
+                }
                 inputs.show(device, feedback);
+                if captured {
+                    captures.take_in(tapes);
+                }
             });
     }
 
     pub(super) fn device_views(&self) -> Vec<DeviceView> {
-        let secs = self.secs();
+        let (secs, now) = (self.secs(), self.since_began());
         let mut views = self.inputs.view();
         for view in &mut views {
             self.controls.view(view, secs);
+            view.capture = self.captures.view(&view.name, now);
         }
         views
     }
 
     /// The link in hand, else the joint that was posed last.
-    fn focus(&self) -> String {
+    fn focus(&self) -> &str {
         if let Some(joint) = &self.joint_in_hand {
-            return joint.clone();
+            return joint;
         }
         let stage = self.stage.as_ref();
         let link = stage.and_then(|it| it.figure().links().get(usize::from(it.selected())));
-        link.map(|link| link.name.clone()).unwrap_or_default()
+        link.map(|link| link.name.as_str()).unwrap_or_default()
     }
 
     /// Where a parameter stands, by an inlet that goes to a value; and between what it may go.
@@ -235,14 +273,15 @@ impl Rig {
             return Some((angle_rad.to_degrees(), Some(range)));
         }
         let transport = self.timeline.view();
-        let (value, range) = match (name.to_ascii_uppercase().as_str(), inlet) {
-            ("VIEW", 5) => (self.view.azimuth_rad.to_degrees(), ROUND_DEG),
-            ("VIEW", 6) => (self.view.elevation_rad.to_degrees(), TILT_DEG),
-            ("TIME", 2) if transport.end_secs > transport.start_secs => {
+        let is = |known: &str| name.eq_ignore_ascii_case(known);
+        let (value, range) = match inlet {
+            5 if is("VIEW") => (self.view.azimuth_rad.to_degrees(), ROUND_DEG),
+            6 if is("VIEW") => (self.view.elevation_rad.to_degrees(), TILT_DEG),
+            2 if is("TIME") && transport.end_secs > transport.start_secs => {
                 (transport.secs, [transport.start_secs, transport.end_secs])
             }
-            ("TIME", 2) => (transport.secs, TIMES_SECS),
-            ("TIME", 6) => (transport.speed, SPEEDS),
+            2 if is("TIME") => (transport.secs, TIMES_SECS),
+            6 if is("TIME") => (transport.speed, SPEEDS),
             _ => return None,
         };
         Some((value, Some(range)))
@@ -361,6 +400,15 @@ impl Rig {
 #[cfg(test)]
 #[path = "controls_bench.rs"]
 mod bench;
+#[cfg(test)]
+#[path = "controls_cost.rs"]
+mod cost;
+#[cfg(test)]
+#[path = "controls_echo.rs"]
+mod echo;
+#[cfg(test)]
+#[path = "controls_rate.rs"]
+mod rate;
 #[cfg(test)]
 #[path = "controls_steps.rs"]
 mod steps;

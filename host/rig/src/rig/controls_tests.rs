@@ -193,7 +193,7 @@ fn dials_buttons_and_sticks_are_bound_each_in_its_way() {
     let controls = bench.view().controls;
     assert_eq!(
         (controls[3].mode, &controls[4].bound[..]),
-        ("press", &["TIME<2>".to_owned()][..])
+        ("press", &["TIME<1>".to_owned()][..])
     );
 }
 

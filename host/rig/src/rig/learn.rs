@@ -1,6 +1,5 @@
 //! Learning and binding: controls and parameters that were touched become connections of the network.
 
-use device_profiles::ControlKind;
 use ps300::value::Value;
 
 use super::Rig;
@@ -162,11 +161,12 @@ impl Rig {
             instance: &name,
             number: binding.control,
             kind,
+            rate: learn::goes_by_speed(kind, mode, binding.range.is_some()),
         };
         let mut commands = self.parting(&name, binding.control);
         let made = learn::connection(hand, &goal)?;
-        let wanted = learn::mode_for(goal.sort).word();
-        if kind == ControlKind::Button && mode != wanted {
+        let wanted = learn::mode_for(hand, goal.sort, mode);
+        if mode != wanted {
             commands.push(ps300::Command::Send {
                 payload: ps300::language::Payload::Value(Value::from(wanted)),
                 to: learn::input(&modes, binding.control),

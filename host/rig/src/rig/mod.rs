@@ -5,6 +5,7 @@
 //! to the devices; the snapshot.
 
 mod apply;
+mod captures;
 mod controls;
 mod learn;
 mod look;
@@ -21,6 +22,7 @@ use device::clock::{Clock, Instant};
 use device_profiles::Profiles;
 use motion::clip::Clip;
 
+use crate::capture::Captures;
 use crate::command::Command;
 use crate::controls::Controls;
 use crate::desk::Desk;
@@ -31,12 +33,13 @@ use crate::journal::Recorder;
 use crate::network_look::Looking;
 use crate::network_steps::NetworkSteps;
 use crate::notes::Notes;
+use crate::parameters::Request;
 use crate::ports::Ports;
 use crate::puppet::{PuppetSetupError, PuppetSpec, Seat};
 use crate::snapshot::{NoteLevel, Snapshot, ViewState};
 use crate::stage::Stage;
 use crate::timeline::Timeline;
-use crate::wiring::{Wiring, shapes};
+use crate::wiring::{DeviceMessage, Wiring, shapes};
 use rehearse::Rehearsing;
 use takes::Takes;
 
@@ -95,6 +98,9 @@ pub struct Rig {
     inputs: Inputs,
     /// What devices said in one step; kept, so that listening does not allocate.
     heard: Vec<Heard>,
+    /// What the network asked for in one step, and told devices; kept likewise.
+    requests: Vec<Request>,
+    device_messages: Vec<DeviceMessage>,
     puppet: Option<Seat>,
     rehearsing: Option<Rehearsing>,
     /// The pose on screen is the puppet's own.
@@ -102,6 +108,8 @@ pub struct Rig {
     /// Joints held while teaching, and where.
     held: Held,
     takes: Takes,
+    captures: Captures,
+    captures_folder: Option<PathBuf>,
     profiles: Arc<Profiles>,
     coefficient: usize,
     notes: Notes,
@@ -156,11 +164,15 @@ impl Rig {
             joint_in_hand: None,
             inputs,
             heard: Vec::new(),
+            requests: Vec::new(),
+            device_messages: Vec::new(),
             puppet,
             rehearsing,
             teaching: false,
             held: Held::default(),
             takes: Takes::default(),
+            captures: Captures::default(),
+            captures_folder: None,
             profiles,
             coefficient: 1,
             notes: Notes::default(),
@@ -214,6 +226,7 @@ impl Rig {
         self.show_taught();
         self.show_on_devices();
         self.go_on_with_takes(commands);
+        self.write_captures();
         self.autosave_if_due();
         self.steps += 1;
     }
@@ -230,9 +243,12 @@ impl Rig {
     /// Does what messages at the rig's parameters ask for. Their effects may send again; that is for the next
     /// step, so a loop through the rig cannot hold it up.
     fn take_requests(&mut self) {
-        for request in self.wiring.requests() {
+        let mut requests = std::mem::take(&mut self.requests);
+        self.wiring.requests(&mut requests);
+        for request in requests.drain(..) {
             self.apply_request(request);
         }
+        self.requests = requests;
         self.take_device_messages();
     }
 
@@ -344,6 +360,9 @@ impl Rig {
 
     /// Lets go of the puppet and every port. Returns whether torque is known to be off.
     pub fn close(mut self) -> bool {
+        if let Err(error) = self.stop_captures(&self.captures.running()) {
+            tracing::debug!("{error}");
+        }
         let closed = self
             .puppet
             .as_mut()

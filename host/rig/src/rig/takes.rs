@@ -7,7 +7,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{Rehearsing, Rig};
-use crate::command::{Command, TakeCommand};
+use crate::command::{Command, ControlCommand, TakeCommand};
+use crate::controls::instance::Instance;
 use crate::document::{Show, is_file_name};
 use crate::snapshot::{NoteLevel, TakeView};
 use crate::stage::Stage;
@@ -158,8 +159,8 @@ impl Rig {
         recording.seen.extend(posed.map(|posed| posed.bits()));
         let full = recording
             .marks
-            .values()
-            .any(|marked| self.takes.tapes.is_full(&marked.address));
+            .keys()
+            .any(|device| self.takes.tapes.is_full(device));
         if full || step + 1 >= STEPS_MAX {
             self.note(
                 NoteLevel::Warning,
@@ -191,7 +192,7 @@ impl Rig {
             .filter(|view| devices.is_empty() || devices.contains(&view.name));
         let mut marks = BTreeMap::new();
         for view in chosen {
-            if let Some(from) = self.takes.tapes.hold(&view.address) {
+            if let Some(from) = self.takes.tapes.hold(&view.name) {
                 let marked = Marked {
                     profile: view.profile.clone(),
                     address: view.address.clone(),
@@ -232,12 +233,12 @@ impl Rig {
         let tapes = &self.takes.tapes;
         let mut devices = BTreeMap::new();
         for (device, marked) in marks {
-            let heard = tapes.heard(&marked.address, marked.from).map(|heard| Heard {
+            let heard = tapes.heard(&device, marked.from).map(|heard| Heard {
                 profile: marked.profile,
-                address: marked.address.clone(),
+                address: marked.address,
                 ..heard
             });
-            tapes.let_go(&marked.address);
+            tapes.let_go(&device);
             devices.extend(heard.map(|heard| (device, heard)));
         }
         if steps.is_empty() {
@@ -418,6 +419,11 @@ impl Rig {
             transport: self.timeline.standing(),
             view: self.view.clone(),
             coefficient: self.coefficient,
+            step: self.steps + 1,
+            fine: self.controls.fine,
+            focus: self.controls.focus().to_owned(),
+            joint_in_hand: self.joint_in_hand.clone(),
+            controls: self.controls.standing().collect(),
         }
     }
 
@@ -428,6 +434,7 @@ impl Rig {
             .rehearsing
             .as_ref()
             .map(|it| it.mannequin().joints().to_vec());
+        self.controls.rename(&|device| start.controls.get(device));
         self.wiring = Wiring::resume(
             &show,
             &joints.unwrap_or_default(),
@@ -436,12 +443,6 @@ impl Rig {
             (start.at.as_secs_f64(), start.frame),
         );
         self.controls.forget_wires();
-        let program = show.program_text();
-        if program != start.program {
-            for found in self.wiring.edit_program(&start.program, &program) {
-                self.note(NoteLevel::Warning, found.to_string());
-            }
-        }
         self.timeline.resume(&start.transport);
         self.view = start.view.clone();
         self.coefficient = start.coefficient;
@@ -451,7 +452,42 @@ impl Rig {
         if let Some(rehearsing) = &mut self.rehearsing {
             rehearsing.resume(&start.joints_rad, start.joints_by_hand);
         }
+        self.joint_in_hand.clone_from(&start.joint_in_hand);
         self.now = self.clock.now();
+        self.steps = start.step;
+        self.resume_controls(start);
+        let program = show.program_text();
+        if program != start.program {
+            for found in self.wiring.edit_program(&start.program, &program) {
+                self.note(NoteLevel::Warning, found.to_string());
+            }
+            self.tell_devices_again(&[start.program.clone(), program]);
+        }
+    }
+
+    /// Controls as they stood, in the network as it was: what has changed in it since lets go of them afterwards.
+    fn resume_controls(&mut self, start: &Start) {
+        self.controls.fine = start.fine;
+        let stood = |instance: &Instance| start.controls.get(&instance.device);
+        for instance in &mut self.controls.instances {
+            if let Some(stood) = stood(instance) {
+                instance.resume_page(stood);
+            }
+        }
+        if !start.controls.is_empty() {
+            self.controls.resume_focus(&start.focus);
+        }
+        self.refresh_bindings();
+        for instance in &mut self.controls.instances {
+            if let Some(stood) = stood(instance) {
+                instance.resume_controls(stood);
+            }
+        }
+    }
+
+    /// Looks for devices that are away in every step.
+    pub(crate) fn look_in_every_step(&mut self) {
+        self.inputs.look_in_every_step();
     }
 
     /// Hears devices and does nothing else: what was said before a take.
@@ -468,7 +504,7 @@ fn first_difference(seen: &[u64], again: &[u64]) -> Option<usize> {
 }
 
 /// Whether a command is part of what is performed. Devices are heard themselves, a puppet is not part of a re-run,
-/// and which network is performed through is chosen when it is done again.
+/// and which network is performed through, with all that is set in it, is chosen when it is done again.
 fn belongs_to_performance(command: &Command) -> bool {
     !matches!(
         command,
@@ -480,6 +516,20 @@ fn belongs_to_performance(command: &Command) -> bool {
             | Command::Puppet(_)
             | Command::Teach(_)
             | Command::SlowToFit
+            | Command::Learn(_)
+            | Command::BindControl(_)
+            | Command::UnbindControl { .. }
+            | Command::SetControlLabel { .. }
+            | Command::Controls(
+                ControlCommand::Mode { .. }
+                    | ControlCommand::Gear { .. }
+                    | ControlCommand::Curve { .. }
+                    | ControlCommand::PageFor { .. }
+            )
+            | Command::TestOutput { .. }
+            | Command::PinDevice { .. }
+            | Command::StartCapture { .. }
+            | Command::StopCapture { .. }
             | Command::Save
             | Command::Take(_)
     )

@@ -5,18 +5,19 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use device::exchange::{self, Exchange, Record, time_words};
+use device::exchange::{self, Exchange, time_words};
 use glam::DVec3;
 use motion::{FigurePose, LinkPose};
 use serde::{Deserialize, Serialize};
 
-use super::{Heard, STEPS_MAX, StageStart, Start, Take};
+use super::{Heard, Reel, STEPS_MAX, StageStart, Start, Take};
 use crate::command::{Command, Side};
+use crate::controls::standing::DeviceStanding;
 use crate::document::FileError;
 use crate::snapshot::{TransportView, ViewState};
 
-/// The version written.
-const VERSION: u64 = 1;
+/// The version written. Version 1 does not say how the controls stood.
+const VERSION: u64 = 2;
 
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -34,6 +35,7 @@ struct File {
 
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 struct StartFile {
     /// Seconds since the rig began.
     at: String,
@@ -56,6 +58,16 @@ struct StartFile {
     joints_rad: BTreeMap<String, f64>,
     #[serde(default)]
     joints_by_hand: bool,
+    #[serde(default)]
+    step: u64,
+    #[serde(default)]
+    fine: bool,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    focus: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    joint_in_hand: Option<String>,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    controls: BTreeMap<String, DeviceStanding>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -110,10 +122,10 @@ pub(crate) fn write(take: &Take) -> String {
     toml::to_string_pretty(&file).unwrap_or_default()
 }
 
-fn said(records: &[Record]) -> String {
+fn said(said: &Reel) -> String {
     let mut text = String::from("\n");
-    for record in records {
-        exchange::write_record(&mut text, record);
+    for record in said.records() {
+        exchange::write_record(&mut text, &record);
     }
     text
 }
@@ -161,6 +173,11 @@ fn start_file(start: &Start) -> StartFile {
         stage: start.stage.as_ref().map(stage_file),
         joints_rad: start.joints_rad.clone(),
         joints_by_hand: start.joints_by_hand,
+        step: start.step,
+        fine: start.fine,
+        focus: start.focus.clone(),
+        joint_in_hand: start.joint_in_hand.clone(),
+        controls: start.controls.clone(),
     }
 }
 
@@ -188,9 +205,9 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Take, FileError> {
             error.message().to_owned(),
         )
     })?;
-    if file.version != VERSION {
+    if !(1..=VERSION).contains(&file.version) {
         let message = format!(
-            "this take has version {}; version {VERSION} is known here",
+            "this take has version {}; versions 1 to {VERSION} are known here",
             file.version
         );
         return Err(fault(0, message).with_hint("it was written by a newer dialrig: update this one"));
@@ -282,16 +299,12 @@ fn read_commands(text: &str, steps: usize) -> Result<Vec<(usize, Command)>, Stri
 }
 
 fn read_device(file: DeviceFile) -> Result<Heard, String> {
-    let records = |text: &str| -> Result<Vec<Record>, String> {
+    let records = |text: &str| -> Result<Reel, String> {
         let read: Exchange = exchange::read(text).map_err(|errors| {
             let words: Vec<String> = errors.iter().map(ToString::to_string).collect();
             words.join("; ")
         })?;
-        let mut records = read.records;
-        for record in &mut records {
-            record.line = 0;
-        }
-        Ok(records)
+        Ok(read.records.into_iter().collect())
     };
     Ok(Heard {
         reports: file.reports,
@@ -327,6 +340,11 @@ fn read_start(file: StartFile, at: Duration) -> Start {
             centre: DVec3::from_array(file.centre),
         },
         coefficient: file.coefficient,
+        step: file.step,
+        fine: file.fine,
+        focus: file.focus,
+        joint_in_hand: file.joint_in_hand,
+        controls: file.controls,
     }
 }
 
@@ -372,6 +390,8 @@ fn unsound(start: &Start) -> Option<&'static str> {
         Some("every number of the pose")
     } else if !start.joints_rad.values().all(|it| it.is_finite()) {
         Some("every joint's angle")
+    } else if !start.controls.values().all(DeviceStanding::is_sound) {
+        Some("every number of a control")
     } else {
         None
     }

@@ -12,13 +12,16 @@
 
 mod file;
 mod keys;
+mod reel;
 mod rerun;
 mod tape;
 
 pub use keys::TakeTolerance;
 pub(crate) use keys::{Keyed, Keying, Posed};
+pub(crate) use reel::Mark;
+pub use reel::Reel;
 pub(crate) use rerun::Rerun;
-pub(crate) use tape::{Mark, Tapes};
+pub(crate) use tape::{Conversation, Tapes};
 
 pub(crate) use file::{read, write};
 
@@ -26,10 +29,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
-use device::exchange::Record;
 use motion::FigurePose;
 
 use crate::command::{Command, Side};
+use crate::controls::standing::DeviceStanding;
 use crate::snapshot::{TransportView, ViewState};
 
 /// Steps one take may have: an hour and more at 200 a second.
@@ -73,6 +76,16 @@ pub struct Start {
     pub view: ViewState,
     /// The kinetic coefficient selected.
     pub coefficient: usize,
+    /// The number of the rig's first step in it.
+    pub step: u64,
+    /// Fine gear for all controls.
+    pub fine: bool,
+    /// The link or joint that pages of controls went by.
+    pub focus: String,
+    /// The joint that was posed last, while no link was.
+    pub joint_in_hand: Option<String>,
+    /// How the controls of each device stood, by the name the rig gave it.
+    pub controls: BTreeMap<String, DeviceStanding>,
 }
 
 /// How the figure stood, and the hands on it.
@@ -102,9 +115,9 @@ pub struct Heard {
     /// When its line was opened.
     pub opened: Duration,
     /// What it had said before, as far as the meaning of the rest needs it.
-    pub before: Vec<Record>,
+    pub before: Reel,
     /// What it said during the take.
-    pub during: Vec<Record>,
+    pub during: Reel,
 }
 
 impl Take {

@@ -10,12 +10,12 @@ use std::time::Duration;
 
 use device::clock::{Clock, Instant, VirtualClock};
 use device::codec::Answer;
-use device::exchange::{Record, What};
+use device::exchange::What;
 use device::transport::{Boundary, Transport, TransportError};
 use device_profiles::Profiles;
 
 use super::keys::Keys;
-use super::{Heard, Take};
+use super::{Heard, Reel, Take};
 use crate::document::Show;
 use crate::inputs::InputSpec;
 use crate::ports::{Found, Ports};
@@ -26,6 +26,9 @@ use crate::rig::{Rig, RigOptions};
 const LOOK: Duration = Duration::from_millis(1);
 /// For so long: longer than any handshake takes.
 const HANDSHAKE: Duration = Duration::from_secs(10);
+
+/// Times at which something was said before the take that are gone through in one step: no pose comes of them.
+const HEARINGS: usize = 10;
 
 /// A re-run on its way.
 pub(crate) struct Rerun {
@@ -49,7 +52,8 @@ impl Rerun {
         let spec = |(name, heard): (&String, &Heard)| InputSpec {
             name: name.clone(),
             profile: heard.profile.clone(),
-            address: heard.address.clone(),
+            // Two devices may have been at one address, one after the other.
+            address: name.clone(),
         };
         let options = RigOptions {
             show: show.with_clip_chosen(&take.start.clip),
@@ -60,12 +64,13 @@ impl Rerun {
             recorder: None,
         };
         let ports = TakePorts::new(&take, &clock);
-        let rig =
+        let mut rig =
             Rig::new(Arc::new(clock.clone()), Box::new(ports), options).map_err(|error| error.to_string())?;
+        rig.look_in_every_step();
         let mut before: Vec<Duration> = take
             .devices
             .values()
-            .flat_map(|heard| heard.before.iter().filter_map(|record| record.at))
+            .flat_map(|heard| heard.before.times())
             .chain(take.devices.values().map(|heard| heard.opened))
             .collect();
         before.sort_unstable();
@@ -86,7 +91,14 @@ impl Rerun {
     pub(crate) fn advance(&mut self, steps: usize) -> Result<bool, String> {
         for _ in 0..steps {
             match self.next {
-                None => self.hear_before()?,
+                None => {
+                    for _ in 0..HEARINGS {
+                        self.hear_before()?;
+                        if self.next.is_some() {
+                            break;
+                        }
+                    }
+                }
                 Some(next) if next < self.take.steps.len() => self.step(next),
                 Some(_) => return Ok(true),
             }
@@ -149,7 +161,7 @@ impl Rerun {
     }
 }
 
-/// Lines that devices of a take were on, one after another, by address.
+/// Lines that devices of a take were on, one after another, by the device's name.
 type Lines = BTreeMap<String, VecDeque<Line>>;
 
 /// One line, from its opening until it was gone.
@@ -157,7 +169,9 @@ type Lines = BTreeMap<String, VecDeque<Line>>;
 struct Line {
     opened: Duration,
     reports: bool,
-    records: VecDeque<Record>,
+    said: Reel,
+    /// What came back for questions; what nobody asks for does not stand in the way of the rest.
+    answers: VecDeque<(Duration, Answer)>,
 }
 
 /// Ports at which the devices of a take are.
@@ -170,8 +184,8 @@ impl TakePorts {
     fn new(take: &Take, clock: &VirtualClock) -> Self {
         let lines = take
             .devices
-            .values()
-            .map(|heard| (heard.address.clone(), lines_of(heard)));
+            .iter()
+            .map(|(name, heard)| (name.clone(), lines_of(heard)));
         Self {
             clock: clock.clone(),
             lines: Arc::new(Mutex::new(lines.collect())),
@@ -186,11 +200,16 @@ fn lines_of(heard: &Heard) -> VecDeque<Line> {
         ..Line::default()
     };
     let mut lines = vec![line(heard.opened)];
-    for record in heard.before.iter().chain(&heard.during) {
+    for record in heard.before.records().chain(heard.during.records()) {
+        let at = record.at.unwrap_or_default();
         if record.what == What::Back {
-            lines.push(line(record.at.unwrap_or_default()));
-        } else if let Some(last) = lines.last_mut() {
-            last.records.push_back(record.clone());
+            lines.push(line(at));
+            continue;
+        }
+        let Some(last) = lines.last_mut() else { continue };
+        match record.what {
+            What::Answer(answer) => last.answers.push_back((at, answer)),
+            what => last.said.put(at, what),
         }
     }
     lines.into()
@@ -214,7 +233,8 @@ impl Ports for TakePorts {
             address: address.to_owned(),
             clock: self.clock.clone(),
             reports: line.reports,
-            records: line.records,
+            said: line.said,
+            answers: line.answers,
             arrived: None,
         }))
     }
@@ -225,28 +245,25 @@ struct TakeTransport {
     address: String,
     clock: VirtualClock,
     reports: bool,
-    records: VecDeque<Record>,
+    said: Reel,
+    answers: VecDeque<(Duration, Answer)>,
     arrived: Option<Instant>,
 }
 
 impl TakeTransport {
-    /// The first record of that kind, taken out, if its time has come; an error where none will ever come.
+    fn now(&self) -> Duration {
+        self.clock.now().since(Instant::ZERO)
+    }
+
+    /// The first answer of that kind, taken out, if its time has come; an error where none will ever come.
     fn answer(&mut self, is: impl Fn(&Answer) -> bool) -> Result<Option<Answer>, TransportError> {
-        let now = self.clock.now().since(Instant::ZERO);
-        let place = self
-            .records
-            .iter()
-            .position(|record| matches!(&record.what, What::Answer(answer) if is(answer)));
-        let Some(place) = place else {
+        let Some(place) = self.answers.iter().position(|(_, answer)| is(answer)) else {
             return Err(self.refused("the take has no answer to this question"));
         };
-        if self.records[place].at.is_some_and(|at| at > now) {
+        if self.answers[place].0 > self.now() {
             return Ok(None);
         }
-        Ok(self.records.remove(place).and_then(|record| match record.what {
-            What::Answer(answer) => Some(answer),
-            _ => None,
-        }))
+        Ok(self.answers.remove(place).map(|(_, answer)| answer))
     }
 
     fn refused(&self, why: &str) -> TransportError {
@@ -267,32 +284,20 @@ impl Transport for TakeTransport {
     }
 
     fn read(&mut self, buffer: &mut [u8]) -> Result<usize, TransportError> {
-        let now = self.clock.now().since(Instant::ZERO);
-        // Answers that nobody asks for do not stand in the way.
-        let place = self
-            .records
-            .iter()
-            .position(|record| !matches!(record.what, What::Answer(_)));
-        let Some(record) = place.and_then(|place| self.records.get_mut(place)) else {
-            return Ok(0);
-        };
-        let at = record.at.unwrap_or_default();
-        if at > now {
-            return Ok(0);
+        let now = self.now();
+        while self.said.front_at().is_some_and(|at| at <= now) {
+            if self.said.front_other().is_some() {
+                return Err(TransportError::Gone {
+                    address: self.address.clone(),
+                });
+            }
+            self.arrived = self.said.front_at().map(|at| Instant::ZERO.after(at));
+            let count = self.said.read_front(buffer, self.reports);
+            if count > 0 {
+                return Ok(count);
+            }
         }
-        self.arrived = Some(Instant::ZERO.after(at));
-        let What::Device(bytes) = &mut record.what else {
-            return Err(TransportError::Gone {
-                address: self.address.clone(),
-            });
-        };
-        let count = bytes.len().min(buffer.len());
-        buffer[..count].copy_from_slice(&bytes[..count]);
-        bytes.drain(..count);
-        if bytes.is_empty() || self.reports {
-            self.records.remove(place.unwrap_or_default());
-        }
-        Ok(count)
+        Ok(0)
     }
 
     fn write(&mut self, _bytes: &[u8]) -> Result<(), TransportError> {
@@ -303,11 +308,7 @@ impl Transport for TakeTransport {
         let first = bytes.first().copied().unwrap_or_default();
         let refused =
             |answer: &Answer| matches!(answer, Answer::Feature { id, bytes: Err(_) } if *id == first);
-        let next = self.records.iter().find_map(|record| match &record.what {
-            What::Answer(answer) => Some(refused(answer)),
-            _ => None,
-        });
-        if next != Some(true) {
+        if !self.answers.front().is_some_and(|(_, answer)| refused(answer)) {
             return Ok(Some(()));
         }
         match self.answer(refused)? {

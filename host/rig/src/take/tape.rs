@@ -3,121 +3,119 @@
 //! A take that is begun in the middle of a session needs it: what a report means depends on those before it. A
 //! dial's count is only known from the one before, a tablet's size only from its answer.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use device::clock::{Clock, Instant};
-use device::codec::Answer;
+use device::codec::{Answer, Step};
 use device::exchange::{Record, What};
 use device::tap::{Notes, Passed, Tap};
 use device::transport::{Boundary, Transport, TransportError};
 use device_profiles::Line;
 
+use super::reel::{Mark, Reel};
 use crate::command::Touch;
 use crate::ports::{Found, Ports, TouchError};
 use crate::take::Heard;
 
-/// Records kept from the beginning of a conversation whatever follows: every handshake is far shorter.
+/// Things kept from the beginning of a conversation whatever follows: every handshake is far shorter.
 const FIRST_MAX: usize = 512;
-/// Bytes kept besides: an hour of a dial box that is turned all the time, 20 minutes of a pen that never rests.
+/// Things kept besides: a quarter of an hour of a dial box that is turned all the time, half an hour of a pen that
+/// never rests. 4 MiB.
+const THINGS_MAX: usize = 1 << 18;
+/// And bytes: 256 of them for each report of the longest kind at 100 a second, as long.
 const BYTES_MAX: usize = 4 << 20;
-/// Bytes that one take may have of one device: four hours of such a pen.
-const TAKE_BYTES_MAX: usize = 64 << 20;
-
-/// Where in a tape something is: things said before it, since the line was opened.
-pub(crate) type Mark = u64;
+/// What one take may have of one device: an hour of such a dial box.
+const TAKE_THINGS_MAX: usize = 1 << 20;
+const TAKE_BYTES_MAX: usize = 16 << 20;
+/// What a capture has of the conversation before it, besides its beginning.
+const CAPTURE_BEFORE_MAX: usize = 512;
 
 /// What one device said.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Tape {
     /// When its line was opened.
     opened: Duration,
     reports: bool,
-    first: Vec<Record>,
-    heads: VecDeque<Head>,
-    bytes: VecDeque<u8>,
-    /// Answers among the later things, by their number.
-    answers: BTreeMap<Mark, What>,
-    /// Things said in all.
-    said: Mark,
+    first: Reel,
+    later: Reel,
     /// A take is running from here: nothing behind it may go.
     held_from: Option<Mark>,
-    /// Something between the beginning and what is left is gone.
-    cut: bool,
+    /// What it described itself with when its line was first opened.
+    descriptor: Option<Answer>,
+    /// What passed since a capture looked last, while there is one.
+    watched: Option<Vec<(Duration, What)>>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Head {
-    at: Duration,
-    bytes: u32,
+impl Default for Tape {
+    fn default() -> Self {
+        Self {
+            opened: Duration::ZERO,
+            reports: false,
+            // Asked for once, so that listening does not: memory that is not written on costs nothing.
+            first: Reel::with_room(FIRST_MAX, 64 * FIRST_MAX),
+            later: Reel::with_room(THINGS_MAX, BYTES_MAX),
+            held_from: None,
+            descriptor: None,
+            watched: None,
+        }
+    }
 }
 
 impl Tape {
     /// The line is open; a conversation begins. While a take runs, it goes on with the new line instead.
     fn open(&mut self, at: Duration, reports: bool) {
+        self.watch(at, || What::Back);
         if self.held_from.is_some() {
             self.put(at, What::Back);
-        } else {
-            *self = Self {
-                opened: at,
-                reports,
-                ..Self::default()
-            };
+            return;
         }
+        self.opened = at;
+        self.reports = reports;
+        self.first.clear();
+        self.later.clear();
+    }
+
+    /// The number of the next thing.
+    fn next(&self) -> Mark {
+        self.first.next() + self.later.next()
     }
 
     fn put(&mut self, at: Duration, what: What) {
         if self.first.len() < FIRST_MAX {
-            self.first.push(Record::new(at, what));
+            self.first.put(at, what);
         } else {
-            self.answers.insert(self.said, what);
-            self.heads.push_back(Head { at, bytes: 0 });
+            self.make_room(0);
+            self.later.put(at, what);
         }
-        self.said += 1;
     }
 
     fn hear(&mut self, at: Duration, bytes: &[u8]) {
         if self.first.len() < FIRST_MAX {
-            self.first.push(Record::new(at, What::Device(bytes.to_vec())));
+            self.first.hear(at, bytes);
         } else {
-            self.bytes.extend(bytes);
-            let bytes = bytes.len() as u32;
-            self.heads.push_back(Head { at, bytes });
-            self.forget(self.said + 1);
+            self.make_room(bytes.len());
+            self.later.hear(at, bytes);
         }
-        self.said += 1;
     }
 
-    /// Lets the oldest of the later things go while there are too many; `next` is the number behind the last.
-    fn forget(&mut self, next: Mark) {
-        while self.bytes.len() > BYTES_MAX {
-            let oldest = next - self.heads.len() as Mark;
-            if self.held_from.is_some_and(|from| oldest >= from) {
+    /// Lets the oldest of the later things go until there is room for one more.
+    fn make_room(&mut self, bytes: usize) {
+        while self.later.len() + 1 > THINGS_MAX || self.later.bytes() + bytes > BYTES_MAX {
+            let oldest = self.next() - self.later.len() as Mark;
+            if self.later.is_empty() || self.held_from.is_some_and(|from| oldest >= from) {
                 return;
             }
-            let Some(head) = self.heads.pop_front() else {
-                return;
-            };
-            self.bytes.drain(..head.bytes as usize);
-            self.answers.remove(&oldest);
-            self.cut = true;
+            self.later.forget();
         }
     }
 
-    /// Everything that is left, each with its number.
-    fn records(&self) -> Vec<(Mark, Record)> {
-        let first = (0..).zip(self.first.iter().cloned());
-        let mut number = self.said - self.heads.len() as Mark;
-        let mut bytes = self.bytes.iter().copied();
-        let later = self.heads.iter().map(|head| {
-            let said: Vec<u8> = bytes.by_ref().take(head.bytes as usize).collect();
-            let what = self.answers.get(&number).cloned();
-            number += 1;
-            let what = what.unwrap_or(What::Device(said));
-            (number - 1, Record::new(head.at, what))
-        });
-        first.chain(later.collect::<Vec<_>>()).collect()
+    fn watch(&mut self, at: Duration, what: impl FnOnce() -> What) {
+        if let Some(watched) = &mut self.watched {
+            watched.push((at, what()));
+        }
     }
 }
 
@@ -132,86 +130,147 @@ impl SharedTape {
     }
 }
 
-/// Writes what passes on a tape: what the device says, and that it is gone. What the host says is left out: whoever
-/// hears the same asks the same.
+/// Writes what passes on a tape: what the device says, and that it is gone. What the host says is left out, but for a
+/// capture: whoever hears the same asks the same.
 struct Writer {
     tape: SharedTape,
     began: Instant,
+    now: Now,
 }
+
+/// The time of the rig's present step, nanoseconds since it began. What arrives while a step listens is of that step:
+/// a re-run, which listens at the steps' times, must hear it in the same one.
+type Now = Arc<AtomicU64>;
 
 impl Notes for Writer {
     fn note(&mut self, at: Instant, passed: Passed<'_>) {
-        let at = at.since(self.began);
+        let now = Duration::from_nanos(self.now.load(Ordering::Relaxed));
+        let at = at.since(self.began).min(now);
         let mut tape = self.tape.lock();
         match passed {
-            Passed::Heard(bytes) => tape.hear(at, bytes),
-            Passed::Answered(answer) => tape.put(at, What::Answer(Answer::clone(answer))),
-            Passed::Gone => tape.put(at, What::Gone),
-            Passed::Sent(_) => {}
+            Passed::Heard(bytes) => {
+                tape.watch(at, || What::Device(bytes.to_vec()));
+                tape.hear(at, bytes);
+            }
+            Passed::Answered(answer) => {
+                if matches!(answer, Answer::Descriptor(Ok(_))) {
+                    tape.descriptor = Some(Answer::clone(answer));
+                }
+                tape.watch(at, || What::Answer(Answer::clone(answer)));
+                tape.put(at, What::Answer(Answer::clone(answer)));
+            }
+            Passed::Gone => {
+                tape.watch(at, || What::Gone);
+                tape.put(at, What::Gone);
+            }
+            Passed::Sent(step) => tape.watch(at, || What::Host(Step::clone(step))),
         }
     }
 }
 
-/// The tapes of all lines that were opened for input devices, by address.
+/// The tapes of all lines that were opened for input devices, by the names of the devices.
 #[derive(Debug, Default)]
 pub(crate) struct Tapes {
     tapes: BTreeMap<String, SharedTape>,
+    now: Now,
+}
+
+/// The conversation with a device up to now, as far as a capture has it.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Conversation {
+    /// When its line was opened; the times of the records too are since the rig began.
+    pub(crate) opened: Duration,
+    pub(crate) records: Vec<Record>,
+    /// How many records between its beginning and the latest are left out.
+    pub(crate) left_out: u64,
+    /// What it described itself with, where that was asked for.
+    pub(crate) descriptor: Option<Answer>,
 }
 
 impl Tapes {
     /// From now on nothing of this device's tape goes until [`Tapes::let_go`]. `None` where it has none.
-    pub(crate) fn hold(&self, address: &str) -> Option<Mark> {
-        let mut tape = self.tapes.get(address)?.lock();
-        let from = tape.said;
+    pub(crate) fn hold(&self, device: &str) -> Option<Mark> {
+        let mut tape = self.tapes.get(device)?.lock();
+        let from = tape.next();
         tape.held_from = Some(from);
         Some(from)
     }
 
-    pub(crate) fn let_go(&self, address: &str) {
-        if let Some(tape) = self.tapes.get(address) {
+    pub(crate) fn let_go(&self, device: &str) {
+        if let Some(tape) = self.tapes.get(device) {
             let mut tape = tape.lock();
             tape.held_from = None;
-            let next = tape.said;
-            tape.forget(next);
+            tape.make_room(0);
         }
     }
 
     /// Whether a take has become too long for this device's tape.
-    pub(crate) fn is_full(&self, address: &str) -> bool {
-        self.tapes
-            .get(address)
-            .is_some_and(|tape| tape.lock().bytes.len() > TAKE_BYTES_MAX)
+    pub(crate) fn is_full(&self, device: &str) -> bool {
+        self.tapes.get(device).is_some_and(|tape| {
+            let tape = tape.lock();
+            tape.later.bytes() > TAKE_BYTES_MAX || tape.later.len() > TAKE_THINGS_MAX
+        })
     }
 
     /// What the device said, cut in two at a mark. Times never run backwards in it: what arrived before an answer was
     /// fetched is told with the answer's time.
-    pub(crate) fn heard(&self, address: &str, from: Mark) -> Option<Heard> {
-        let tape = self.tapes.get(address)?.lock();
+    pub(crate) fn heard(&self, device: &str, from: Mark) -> Option<Heard> {
+        let tape = self.tapes.get(device)?.lock();
         let mut heard = Heard {
             reports: tape.reports,
             opened: tape.opened,
             ..Heard::default()
         };
-        let mut latest = Duration::ZERO;
-        for (number, mut record) in tape.records() {
-            latest = latest.max(record.at.unwrap_or_default());
-            record.at = Some(latest);
-            if number < from {
-                heard.before.push(record);
-            } else {
-                heard.during.push(record);
-            }
+        let (mut latest, first) = (Duration::ZERO, tape.first.next());
+        for (reel, from) in [(&tape.first, from), (&tape.later, from.saturating_sub(first))] {
+            reel.split_onto(from, &mut latest, [&mut heard.before, &mut heard.during]);
         }
         Some(heard)
     }
 
-    /// Ports whose lines write on these tapes.
+    /// Keeps everything that passes from now on for [`Tapes::watched`], and tells what was said before. Of a device that
+    /// was never there nothing was, and its conversation begins now.
+    pub(crate) fn watch(&mut self, device: &str, now: Duration) -> Conversation {
+        let tape = self.tapes.entry(device.to_owned()).or_insert_with(|| {
+            let tape = SharedTape::default();
+            tape.lock().opened = now;
+            tape
+        });
+        let mut tape = tape.lock();
+        tape.watched.get_or_insert_default();
+        let first = tape.first.records();
+        let latest = tape.later.latest(CAPTURE_BEFORE_MAX);
+        Conversation {
+            opened: tape.opened,
+            records: first.chain(latest).collect(),
+            left_out: tape.later.next().saturating_sub(CAPTURE_BEFORE_MAX as Mark),
+            descriptor: tape.descriptor.clone(),
+        }
+    }
+
+    /// Nothing is kept for a capture any more.
+    pub(crate) fn look_away(&self, device: &str) {
+        if let Some(tape) = self.tapes.get(device) {
+            tape.lock().watched = None;
+        }
+    }
+
+    /// What passed since the last time; times as in tapes.
+    pub(crate) fn watched(&self, device: &str) -> Vec<(Duration, What)> {
+        let watched = |tape: &SharedTape| tape.lock().watched.as_mut().map(std::mem::take);
+        self.tapes.get(device).and_then(watched).unwrap_or_default()
+    }
+
+    /// Ports whose lines write on these tapes, at the rig's present step.
     pub(crate) fn at<'t>(
         &'t mut self,
         ports: &'t mut dyn Ports,
         clock: &'t Arc<dyn Clock>,
         began: Instant,
+        now: Instant,
     ) -> TapedPorts<'t> {
+        let nanos = u64::try_from(now.since(began).as_nanos()).unwrap_or(u64::MAX);
+        self.now.store(nanos, Ordering::Relaxed);
         TapedPorts {
             tapes: self,
             ports,
@@ -235,8 +294,7 @@ impl Ports for TapedPorts<'_> {
     }
 
     fn open(&mut self, address: &str, baud: u32) -> Result<Box<dyn Transport>, TransportError> {
-        let line = self.ports.open(address, baud)?;
-        Ok(self.taped(address, line))
+        self.ports.open(address, baud)
     }
 
     fn open_input(
@@ -244,8 +302,17 @@ impl Ports for TapedPorts<'_> {
         address: &str,
         line: Option<&Line>,
     ) -> Result<Box<dyn Transport>, TransportError> {
-        let line = self.ports.open_input(address, line)?;
-        Ok(self.taped(address, line))
+        self.ports.open_input(address, line)
+    }
+
+    fn open_device(
+        &mut self,
+        device: &str,
+        address: &str,
+        line: Option<&Line>,
+    ) -> Result<Box<dyn Transport>, TransportError> {
+        let line = self.ports.open_device(device, address, line)?;
+        Ok(self.taped(device, line))
     }
 
     fn pin(&mut self, address: &str, slot: Option<u16>) -> Result<(), String> {
@@ -258,22 +325,27 @@ impl Ports for TapedPorts<'_> {
 }
 
 impl TapedPorts<'_> {
-    fn taped(&mut self, address: &str, line: Box<dyn Transport>) -> Box<dyn Transport> {
-        let tape = self.tapes.tapes.entry(address.to_owned()).or_default().clone();
+    fn taped(&mut self, device: &str, line: Box<dyn Transport>) -> Box<dyn Transport> {
+        let tape = self.tapes.tapes.entry(device.to_owned()).or_default().clone();
         let reports = line.boundary() == Boundary::Reports;
-        tape.lock().open(self.clock.now().since(self.began), reports);
+        let now = Arc::clone(&self.tapes.now);
+        let at = Duration::from_nanos(now.load(Ordering::Relaxed));
+        tape.lock().open(at, reports);
         let began = self.began;
-        Box::new(Tap::new(
-            line,
-            Arc::clone(self.clock),
-            Box::new(Writer { tape, began }),
-        ))
+        let writer = Writer { tape, began, now };
+        Box::new(Tap::new(line, Arc::clone(self.clock), Box::new(writer)))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn numbered(tape: &Tape) -> Vec<(Mark, Record)> {
+        let first = (0..).zip(tape.first.records());
+        let later = tape.next() - tape.later.len() as Mark;
+        first.chain((later..).zip(tape.later.records())).collect()
+    }
 
     fn ms(ms: u64) -> Duration {
         Duration::from_millis(ms)
@@ -288,8 +360,9 @@ mod tests {
         for n in 0..count {
             tape.hear(ms(n), &long);
         }
-        assert!(tape.cut && tape.bytes.len() <= BYTES_MAX);
-        let records = tape.records();
+        assert!(tape.later.bytes() <= BYTES_MAX);
+        let records: Vec<(Mark, Record)> = numbered(&tape);
+        assert!((records.len() as u64) < count);
         let numbers: Vec<Mark> = records.iter().map(|(number, _)| *number).collect();
         assert_eq!((numbers[0], numbers[FIRST_MAX - 1]), (0, FIRST_MAX as u64 - 1));
         assert_eq!(numbers.last(), Some(&(count - 1)));
@@ -307,7 +380,7 @@ mod tests {
         for n in 0..600 {
             tape.hear(ms(n), &[n as u8]);
         }
-        let from = tape.said;
+        let from = tape.next();
         tape.held_from = Some(from);
         let long = vec![1; 1 << 20];
         for n in 600..610 {
@@ -316,8 +389,7 @@ mod tests {
         tape.put(ms(611), What::Gone);
         tape.open(ms(700), false);
         tape.hear(ms(701), &[9]);
-        let held: Vec<Record> = tape
-            .records()
+        let held: Vec<Record> = numbered(&tape)
             .into_iter()
             .filter(|(n, _)| *n >= from)
             .map(|(_, r)| r)
@@ -327,10 +399,23 @@ mod tests {
         assert_eq!(held[11], Record::new(ms(700), What::Back));
         assert_eq!(held[12].what, What::Device(vec![9]));
         tape.held_from = None;
-        let next = tape.said;
-        tape.forget(next);
-        assert!(tape.bytes.len() <= BYTES_MAX);
+        tape.make_room(0);
+        assert!(tape.later.bytes() <= BYTES_MAX);
         tape.open(ms(900), false);
-        assert_eq!((tape.said, tape.opened), (0, ms(900)));
+        assert_eq!((tape.next(), tape.opened), (0, ms(900)));
+    }
+
+    /// However many short reports there are, their heads too are bounded, and nothing is asked of the allocator.
+    #[test]
+    fn short_reports_are_bounded_too_and_listening_does_not_allocate() {
+        let mut tape = Tape::default();
+        tape.open(ms(0), false);
+        let allocated = allocation_counter::measure(|| {
+            for n in 0..2 * THINGS_MAX as u64 {
+                tape.hear(Duration::from_micros(n), &[0x34, 0, n as u8]);
+            }
+        });
+        assert_eq!(allocated.count_total, 0);
+        assert_eq!(tape.later.len(), THINGS_MAX);
     }
 }

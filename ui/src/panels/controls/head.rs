@@ -1,7 +1,7 @@
 //! Above the controls: which device, where it is, its page, and what can be done with all of it.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
-use rig::{Command, ControlCommand, DeviceHealth, DeviceView, LearnCommand, Snapshot, Touch};
+use rig::{CaptureView, Command, ControlCommand, DeviceHealth, DeviceView, LearnCommand, Snapshot, Touch};
 
 use super::super::button::{Button, Tone};
 use super::super::{Commands, style};
@@ -43,6 +43,7 @@ pub(super) fn show(
         rect
     };
     learn(ui, next(WIDTH), seen, commands);
+    capture(ui, next(WIDTH), device, commands);
     cable(ui, &mut next, device, commands);
     pages(ui, &mut next, device, commands);
     if let Some(said) = learning(seen) {
@@ -65,8 +66,9 @@ fn facts(device: &DeviceView) -> String {
         "" => String::new(),
         name => format!("{name}<n>   "),
     };
+    let captured = device.capture.as_ref().map(captured).unwrap_or_default();
     format!(
-        "{instance}{}   {}   {} events",
+        "{instance}{}   {}   {} events{captured}",
         device.profile, device.address, device.events
     )
 }
@@ -82,6 +84,40 @@ fn learn(ui: &mut Ui, rect: Rect, seen: &Snapshot, commands: &mut Commands<'_>) 
             LearnCommand::Begin
         };
         commands.push(Command::Learn(asked));
+    }
+}
+
+/// Everything said on its line goes into a file while this is on.
+fn capture(ui: &mut Ui, rect: Rect, device: &DeviceView, commands: &mut Commands<'_>) {
+    let running = device.capture.as_ref().is_some_and(|capture| capture.running);
+    let tip = "Writes everything this device and dialrig say to each other into a file that replay, decode and tests \
+               read.";
+    let name = format!(
+        "{} {}",
+        if running { "Stop capturing" } else { "Capture" },
+        device.name
+    );
+    let button = Button::new("Capture", tip, "").named(&name);
+    let tone = if running { Tone::On } else { Tone::Plain };
+    if button.tone(tone).show(ui, rect).clicked() {
+        let devices = vec![device.name.clone()];
+        commands.push(if running {
+            Command::StopCapture { devices }
+        } else {
+            Command::StartCapture { devices }
+        });
+    }
+}
+
+/// The capture in words: while it runs how much there is, then where it is, or why it ended.
+fn captured(capture: &CaptureView) -> String {
+    match &capture.trouble {
+        Some(trouble) => format!("   capture ended: {trouble}"),
+        None if capture.running => format!(
+            "   capturing {:.0} s, {} events: {}",
+            capture.secs, capture.events, capture.file
+        ),
+        None => format!("   captured: {}", capture.file),
     }
 }
 
