@@ -95,6 +95,10 @@ pub(super) struct ButtonArray {
     /// Its number, and how many there are.
     pub(super) first: u16,
     pub(super) buttons: u16,
+    /// The choice that stands for none: usage 0 of every page of keys and buttons.
+    pub(super) nothing: Option<u16>,
+    /// The choice that says that more are down than can be named.
+    pub(super) too_many: Option<u16>,
 }
 
 impl PlannedField {
@@ -164,7 +168,7 @@ impl ButtonArray {
             i64::try_from(raw).ok()?
         };
         let at = u16::try_from(value.checked_sub(self.lowest)?).ok()?;
-        (at < self.buttons).then_some(at)
+        (at < self.buttons && self.nothing != Some(at)).then_some(at)
     }
 }
 

@@ -159,7 +159,8 @@ impl Running {
                 FieldName::Twist => frame.twist = Some(value),
                 FieldName::Distance => frame.distance = Some(value),
                 FieldName::Wheel => frame.wheel = Some(frame.wheel.unwrap_or(0).saturating_add(value)),
-                FieldName::InRange => frame.in_range = on,
+                // A pen that touches is there, whatever its own bit says.
+                FieldName::InRange => frame.in_range = Some(frame.in_range == Some(true) || value != 0),
                 FieldName::Proximity => frame.proximity = on,
                 FieldName::Ready => frame.ready = on,
                 FieldName::Tip => frame.tip = on,
@@ -238,6 +239,10 @@ impl Running {
 
     fn button_array(&mut self, array: &super::plan::ButtonArray, bytes: &[u8], emit: &mut Emit<'_>) {
         let named = |n| array.named(n, bytes);
+        if array.too_many.is_some() && named(0) == array.too_many {
+            // What is held is held on.
+            return;
+        }
         for at in 0..array.buttons {
             let control = array.first + at;
             let word = self.down.get(usize::from(control / 64)).copied().unwrap_or(0);

@@ -29,12 +29,6 @@ pub enum DescriptorFault {
         /// There.
         left: usize,
     },
-    /// A type or tag that HID 1.11 does not define, in a place where it cannot be passed over.
-    #[error("expected a main item input, output, feature, collection or end collection, found tag {tag}")]
-    UnknownMain {
-        /// The tag.
-        tag: u8,
-    },
     /// End Collection without a collection.
     #[error("a collection ends here that was never begun")]
     EndWithoutCollection,

@@ -68,4 +68,6 @@ impl Descriptor {
 }
 
 #[cfg(test)]
+mod legal_tests;
+#[cfg(test)]
 mod tests;

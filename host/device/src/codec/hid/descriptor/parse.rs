@@ -104,7 +104,8 @@ impl Parser {
                 Some(_) => Ok(()),
                 None => Err(DescriptorFault::EndWithoutCollection),
             },
-            tag => Err(DescriptorFault::UnknownMain { tag }),
+            // Reserved. Firmware leaves a zero behind its last item, which is one of these; systems pass them over.
+            _ => Ok(()),
         }
     }
 

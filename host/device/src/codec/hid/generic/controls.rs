@@ -3,7 +3,7 @@
 use super::number::{bits, one_byte, planned};
 use super::usage::{self, Place};
 use super::{Building, add_once};
-use crate::codec::hid::descriptor::{Described, Usage};
+use crate::codec::hid::descriptor::{Described, Usage, UsageRange};
 use crate::codec::hid::plan::{ButtonArray, Group, Plan};
 use device_profiles::{ByteMatch, ControlKind, Emits, FieldName};
 
@@ -87,6 +87,8 @@ impl Building<'_> {
         let next = |length: usize| (length < CONTROLS_MAX).then_some(length as u16 + 1);
         Some(match sort {
             Sort::Button => FieldName::Key(numbers.buttons(1)? + 1),
+            // Without a range there is nothing that it could be a share of.
+            Sort::Axis if field.logical[0] == field.logical[1] => return None,
             Sort::Axis => {
                 let number = next(numbers.axes.len())?;
                 numbers.axes.push((usage, field.logical));
@@ -156,16 +158,31 @@ impl Building<'_> {
             lowest: low,
             first,
             buttons: buttons as u16,
+            nothing: place_of(&field.usages, |usage| usage.id == 0),
+            too_many: place_of(&field.usages, |usage| usage == usage::ROLL_OVER),
         };
         let group: &mut Group = self.group(field.report, Emits::Controls, None);
         group.arrays.push(array);
     }
 }
 
+/// Place of the first such usage among an array's choices.
+fn place_of(usages: &[UsageRange], is: impl Fn(Usage) -> bool) -> Option<u16> {
+    let each = |range: &UsageRange| {
+        (0..range.count())
+            .filter_map(|n| range.nth(n))
+            .collect::<Vec<_>>()
+    };
+    // Beyond the most controls there is nothing to be looked for.
+    let mut all = usages.iter().flat_map(each).take(CONTROLS_MAX);
+    all.position(is).map(|at| at as u16)
+}
+
 fn sort(usage: Usage, field: &Described, place: Place) -> Option<Sort> {
     let relative = field.flags.relative();
     let pointer = place == Place::Mouse;
-    let switch = field.width == 1;
+    // Small firmware takes a byte for what is on or off.
+    let switch = field.width == 1 || field.logical == [0, 1];
     let round = field.flags.wraps() && !relative && field.logical[0] < field.logical[1];
     Some(match usage {
         usage::X if pointer && relative => Sort::Dx,
@@ -194,10 +211,10 @@ fn sort(usage: Usage, field: &Described, place: Place) -> Option<Sort> {
                 Sort::Axis
             }
         }
-        // Volume, by knob or by keys.
+        // Volume, balance, bass and treble by knob, panning by wheel; by keys they are buttons.
         Usage {
             page: usage::CONSUMER,
-            id: 0xE0,
+            id: 0xE0..=0xE4 | 0x0238,
         } if !switch => {
             if relative {
                 Sort::Dial

@@ -1,18 +1,19 @@
 //! What a descriptor says about the device, in the words of profiles: its surface and its controls.
 
 use super::controls::{Numbers, axis_name};
-use super::usage;
+use super::usage::{self, Place};
 use crate::codec::Surface;
 use crate::codec::hid::descriptor::{Described, Descriptor, Direction, UnitKind};
 use crate::codec::hid::plan::Plan;
 use device_profiles::{Control, ControlKind, Emits, InputKind, InputProfile};
+use std::f64::consts::{PI, TAU};
 
 /// Millimetres in an inch.
 const MM_PER_INCH: f64 = 25.4;
 /// Counts in an inch where the descriptor has no length: both axes alike, so that nothing is stretched.
 const COUNTS_PER_INCH_UNKNOWN: f64 = 1_000.0;
 /// Tilt without a unit is in degrees, as the usage tables define it.
-const DEGREES_PER_RAD: f64 = 180.0 / std::f64::consts::PI;
+const DEGREES_PER_RAD: f64 = 180.0 / PI;
 
 /// The active area of the first report that is about a tool.
 pub(super) fn surface(descriptor: &Descriptor, plan: &Plan) -> Option<Surface> {
@@ -23,6 +24,15 @@ pub(super) fn surface(descriptor: &Descriptor, plan: &Plan) -> Option<Surface> {
                 && f.report == report.id.unwrap_or(0)
                 && usage::standard(f.usage()) == wanted
         })
+    };
+    // What one report leaves out another may have, as of a puck and a pen.
+    let of_tools = |wanted| {
+        let is_tools = |f: &&Described| {
+            let place = usage::place(&super::field_collections(descriptor, f));
+            f.direction == Direction::Input && matches!(place, Place::Pen | Place::Puck)
+        };
+        let mut fields = descriptor.fields.iter().filter(is_tools);
+        find(wanted).or_else(|| fields.find(|f| usage::standard(f.usage()) == wanted))
     };
     let span = |field: &Described| {
         let [low, high] = field.logical;
@@ -39,20 +49,49 @@ pub(super) fn surface(descriptor: &Descriptor, plan: &Plan) -> Option<Surface> {
         (Some(x), Some(y)) => [x, y],
         _ => [COUNTS_PER_INCH_UNKNOWN; 2],
     };
-    let angle = |field: &Described| {
-        let per_rad = field
-            .counts_per_unit()
-            .filter(|_| field.unit.kind() == UnitKind::Angle);
-        per_rad.unwrap_or(DEGREES_PER_RAD)
-    };
     Some(Surface {
-        tilt_steps_per_rad: find(usage::TILT_X).map(angle),
-        twist_steps_per_turn: find(usage::TWIST).map(|f| angle(f) * std::f64::consts::TAU),
+        tilt_steps_per_rad: of_tools(usage::TILT_X).map(tilt_steps_per_rad),
+        twist_steps_per_turn: of_tools(usage::TWIST).map(twist_steps_per_turn),
         ..Surface::flat(
             [span(x), span(y)],
             counts_per_inch,
-            find(usage::PRESSURE).map_or(0, span),
+            of_tools(usage::PRESSURE).map_or(0, span),
         )
+    })
+}
+
+/// Counts of a radian, where the unit is an angle and gives the field as much of a circle as is meant: units of
+/// lengths, or their powers of ten, are often left standing from the fields before.
+fn by_unit(field: &Described, likely_rad: [f64; 2]) -> Option<f64> {
+    let per_rad = field
+        .counts_per_unit()
+        .filter(|_| field.unit.kind() == UnitKind::Angle)?;
+    let [low, high] = field.logical;
+    let range_rad = (high as f64 - low as f64) / per_rad;
+    (likely_rad[0]..=likely_rad[1])
+        .contains(&range_rad)
+        .then_some(per_rad)
+}
+
+/// Tilt goes from 15 degrees to a straight angle either way. Without a unit it is in degrees, as the usage tables
+/// have it; more of these than there are is the whole of a half circle.
+fn tilt_steps_per_rad(field: &Described) -> f64 {
+    let [low, high] = field.logical;
+    let range = (high - low) as f64;
+    by_unit(field, [PI / 6.0, 2.0 * PI]).unwrap_or(if range > 360.0 {
+        range / PI
+    } else {
+        DEGREES_PER_RAD
+    })
+}
+
+/// Twist goes once round or nearly so. Without a unit it is in degrees; more of these than there are is a turn.
+fn twist_steps_per_turn(field: &Described) -> f64 {
+    let [low, high] = field.logical;
+    let range = (high - low) as f64;
+    let per_rad = by_unit(field, [PI, 2.0 * TAU]);
+    per_rad.map_or(if range > 360.0 { range + 1.0 } else { 360.0 }, |per_rad| {
+        per_rad * TAU
     })
 }
 

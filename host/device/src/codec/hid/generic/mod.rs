@@ -94,14 +94,18 @@ impl Building<'_> {
     }
 
     fn add_tool(&mut self, field: &Described, tool: Tool) {
-        let Some(name) = tool_name(usage::standard(field.usage())) else {
+        let usage = usage::standard(field.usage());
+        let Some(name) = puck_name(usage)
+            .filter(|_| tool != Tool::Pen)
+            .or_else(|| tool_name(usage))
+        else {
             return;
         };
         let planned = planned(name, field, self.descriptor.numbered);
         let group = self.group(field.report, Emits::Tool, Some(tool));
         match name {
             // The upper half of a serial number goes on top of the lower.
-            FieldName::Serial if usage::standard(field.usage()) == usage::SERIAL_HIGH => {
+            FieldName::Serial if usage == usage::SERIAL_HIGH => {
                 number::widen(group, FieldName::Serial, &planned);
             }
             _ => add_once(group, planned),
@@ -143,7 +147,7 @@ impl Building<'_> {
     fn finish(mut self) -> Generic {
         for report in self.plan.reports.iter_mut().filter(|r| r.emits == Emits::Tool) {
             for group in &mut report.groups {
-                in_range_by_tip(group);
+                in_range_by_contact(group);
             }
         }
         let surface = describe::surface(self.descriptor, &self.plan);
@@ -158,17 +162,22 @@ impl Building<'_> {
     }
 }
 
-/// A pen whose descriptor has no bit for being in range is there while it touches.
-fn in_range_by_tip(group: &mut Group) {
+/// A pen is there while it touches: also where its descriptor has no bit for being in range, and where its firmware
+/// takes that bit away while it touches, as a Goodix 27c6:0113 does. With a bit for the eraser's end and none for
+/// being in range it never leaves.
+fn in_range_by_contact(group: &mut Group) {
     let has = |name| group.fields.iter().any(|f| f.name == name);
-    if has(FieldName::InRange) || has(FieldName::Invert) || has(FieldName::Eraser) {
+    if !has(FieldName::InRange) && (has(FieldName::Invert) || has(FieldName::Eraser)) {
         return;
     }
-    let tip = group.fields.iter().find(|f| f.name == FieldName::Tip).copied();
-    group.fields.extend(tip.map(|tip| PlannedField {
-        name: FieldName::InRange,
-        ..tip
-    }));
+    let touches = |f: &&PlannedField| matches!(f.name, FieldName::Tip | FieldName::Eraser);
+    let contacts: Vec<_> = group.fields.iter().filter(touches).copied().collect();
+    group
+        .fields
+        .extend(contacts.into_iter().map(|contact| PlannedField {
+            name: FieldName::InRange,
+            ..contact
+        }));
 }
 
 /// Adds a field unless one of its name is there: descriptors name the last usage for all fields that are left.
@@ -176,6 +185,14 @@ fn add_once(group: &mut Group, field: PlannedField) {
     if !group.fields.iter().any(|f| f.name == field.name) {
         group.fields.push(field);
     }
+}
+
+/// What lies on the surface with its whole weight has no tip: its switches are buttons.
+fn puck_name(usage: Usage) -> Option<FieldName> {
+    let number = [usage::TIP, usage::BARREL, usage::BARREL_2]
+        .iter()
+        .position(|&known| known == usage)?;
+    Some(FieldName::Button(number as u16 + 1))
 }
 
 fn tool_name(usage: Usage) -> Option<FieldName> {
@@ -204,6 +221,8 @@ fn tool_name(usage: Usage) -> Option<FieldName> {
     })
 }
 
+#[cfg(test)]
+mod real;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

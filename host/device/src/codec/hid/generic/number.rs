@@ -23,12 +23,17 @@ pub(super) fn planned(name: FieldName, field: &Described, numbered: bool) -> Pla
         FieldName::X | FieldName::Y | FieldName::Pressure | FieldName::TouchX | FieldName::TouchY
     );
     let sign = if low < 0 { Sign::Twos } else { Sign::None };
-    // Without null state, values outside are cut to the range, as Linux does after Microsoft's driver.
-    let bounded = !field.flags.relative() && !name.is_switch() && low < high;
+    // Names of tools and fingers are no quantities: firmware says 0 to 255 of 64 bits.
+    let names = matches!(name, FieldName::Serial | FieldName::ToolType | FieldName::TouchId);
+    let bounded = !field.flags.relative() && !name.is_switch() && !names && low < high;
+    // Without null state, values outside are cut to the range, as Linux does after Microsoft's driver. A hat at rest
+    // is outside whatever its flags say.
+    let hat = super::usage::standard(field.usage()) == super::usage::HAT;
+    let null = field.flags.null_state() || hat;
     PlannedField {
         sign,
-        range: (bounded && field.flags.null_state()).then_some([low, high]),
-        clamp: (bounded && !field.flags.null_state()).then_some([low, high]),
+        range: (bounded && null).then_some([low, high]),
+        clamp: (bounded && !null).then_some([low, high]),
         add: if places { -low } else { 0 },
         ..PlannedField::plain(name, bits(field, numbered))
     }

@@ -8,6 +8,8 @@ pub(super) const KEYBOARD: u16 = 0x07;
 pub(super) const BUTTON: u16 = 0x09;
 pub(super) const CONSUMER: u16 = 0x0C;
 pub(super) const DIGITIZER: u16 = 0x0D;
+/// More keys are down than the array has elements: it says nothing of which. Elements then all hold this.
+pub(super) const ROLL_OVER: Usage = Usage::new(KEYBOARD, 0x01);
 /// Wacom's own page: the standard ones folded into it.
 pub(super) const WACOM: u16 = 0xFF0D;
 
@@ -93,6 +95,7 @@ pub(super) fn place(around: &[(usize, Usage)]) -> Place {
     }
     let application = around.last().map(|&(_, usage)| standard(usage));
     match application.unwrap_or_default() {
+        TOUCH_SCREEN | TOUCH_PAD if has(STYLUS).is_some() => Place::Pen,
         TOUCH_SCREEN | TOUCH_PAD => Place::TouchSurface,
         FUNCTION_KEYS => Place::Pad,
         MULTI_AXIS => Place::MultiAxis,
