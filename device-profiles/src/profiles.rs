@@ -64,42 +64,79 @@ impl Profiles {
     /// Adds every `.toml` below `folder`; one with an embedded profile's key takes its place.
     /// A folder that does not exist adds nothing; every wrong file is reported, not only the first, and so is a
     /// puppet that does not fit the servos there are once all are added, or an input device without its layout.
-    pub fn with_user_folder(mut self, folder: &Path) -> Result<Self, Vec<ProfileError>> {
-        let mut errors = Vec::new();
-        let mut files = Vec::new();
+    pub fn with_user_folder(self, folder: &Path) -> Result<Self, Vec<ProfileError>> {
+        let (all, read, mut errors) = self.with_files(folder);
+        // Against a servo or layout that could not be read, nothing is judged: one mistake, one message.
+        if errors.is_empty() {
+            for file in &read {
+                errors.extend(file.fitting(&all).err().into_iter().flatten());
+            }
+        }
+        if errors.is_empty() { Ok(all) } else { Err(errors) }
+    }
+
+    /// The same, and goes on without the files that are wrong. Nothing stands in for such a file: who has corrected a
+    /// puppet does not get the shipped one because of a misspelt key.
+    pub fn with_right_files(self, folder: &Path) -> (Self, Vec<ProfileError>) {
+        let (mut all, read, mut errors) = self.with_files(folder);
+        for file in &read {
+            if let Err(found) = file.fitting(&all) {
+                all.remove(&file.key);
+                errors.extend(found);
+            }
+        }
+        (all, errors)
+    }
+
+    /// Adds the files that are right in themselves; those that are not leave nothing under their key.
+    fn with_files(mut self, folder: &Path) -> (Self, Vec<Read>, Vec<ProfileError>) {
+        let (mut files, mut read, mut errors) = (Vec::new(), Vec::new(), Vec::new());
         if folder.exists() {
             collect(folder, &mut files, &mut errors);
         }
-        let mut read = Vec::new();
         for path in files {
-            let file = path.display().to_string();
-            match text_of(&path).and_then(|text| Ok((parse(&file, &key_of(&path), &text)?, text))) {
+            let (file, key) = (path.display().to_string(), key_of(&path));
+            match text_of(&path).and_then(|text| Ok((parse(&file, &key, &text)?, text))) {
                 Ok((profile, text)) => {
-                    read.push((file, text, profile.clone()));
-                    self.add(profile);
+                    self.add(profile.clone());
+                    read.push(Read {
+                        file,
+                        key,
+                        text,
+                        profile,
+                    });
                 }
-                Err(found) => errors.extend(found),
+                Err(found) => {
+                    self.remove(&key);
+                    errors.extend(found);
+                }
             }
         }
-        // Against a servo or layout that could not be read, nothing is judged: one mistake, one message.
-        if errors.is_empty() {
-            for (file, text, profile) in read {
-                errors.extend(fitting(&file, &text, &profile, &self).err().into_iter().flatten());
-            }
+        (self, read, errors)
+    }
+
+    /// Takes out every profile of that key. Layouts stay: what was read with one keeps it.
+    fn remove(&mut self, key: &str) {
+        self.servos.remove(key);
+        self.puppets.remove(key);
+        self.inputs.remove(key);
+    }
+
+    /// The profile with its layout in it, where it has one.
+    pub(crate) fn resolved(&self, mut profile: Kind) -> Kind {
+        if let Kind::Input(input) = &mut profile {
+            let layout = input.layout.as_ref().and_then(|key| self.layouts.get(key));
+            input.of_layout = layout.cloned().map(Arc::new);
         }
-        if errors.is_empty() { Ok(self) } else { Err(errors) }
+        profile
     }
 
     /// Adds one profile, in place of another with its key.
     pub fn add(&mut self, profile: Kind) {
-        match profile {
+        match self.resolved(profile) {
             Kind::Servo(p) => drop(self.servos.insert(p.key.clone(), *p)),
             Kind::Puppet(p) => drop(self.puppets.insert(p.key.clone(), *p)),
-            Kind::Input(mut p) => {
-                let layout = p.layout.as_ref().and_then(|key| self.layouts.get(key));
-                p.of_layout = layout.cloned().map(Arc::new);
-                self.inputs.insert(p.key.clone(), *p);
-            }
+            Kind::Input(p) => drop(self.inputs.insert(p.key.clone(), *p)),
             Kind::Layout(l) => {
                 let shared = Arc::new((*l).clone());
                 let users = self.inputs.values_mut();
@@ -154,6 +191,20 @@ impl Profiles {
     /// All layouts, by key.
     pub fn layouts(&self) -> impl Iterator<Item = &Layout> {
         self.layouts.values()
+    }
+}
+
+/// A user's file that is right in itself.
+struct Read {
+    file: String,
+    key: String,
+    text: String,
+    profile: Kind,
+}
+
+impl Read {
+    fn fitting(&self, all: &Profiles) -> Result<(), Vec<ProfileError>> {
+        fitting(&self.file, &self.text, &self.profile, all)
     }
 }
 

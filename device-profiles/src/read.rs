@@ -89,12 +89,13 @@ pub fn read_file(path: &Path) -> Result<Kind, Vec<ProfileError>> {
 
 /// Reads one file and says also what keeps it from working with the profiles there are: a puppet with servos
 /// that nobody knows, that cannot reach what it asks, or that cannot speak as fast as its bus; an input device
-/// whose layout is not there.
+/// whose layout is not there. The layout of one that has one is in it.
 pub fn read_file_among(path: &Path, others: &Profiles) -> Result<Kind, Vec<ProfileError>> {
     let text = text_of(path)?;
     let file = path.display().to_string();
     let profile = parse(&file, &key_of(path), &text)?;
-    fitting(&file, &text, &profile, others).map(|()| profile)
+    fitting(&file, &text, &profile, others)?;
+    Ok(others.resolved(profile))
 }
 
 /// Whether a puppet and its servos, or an input device and its layout, fit; `text` is the profile's, for the

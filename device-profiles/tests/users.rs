@@ -1,6 +1,6 @@
 //! A user's own profiles: taken in place of the built-in ones, or refused with the place of what is wrong.
 
-use device_profiles::{ProfileError, Profiles};
+use device_profiles::{Kind, ProfileError, Profiles, read_file_among};
 use std::path::{Path, PathBuf};
 
 /// A user's folder of this test's own, in the build's folder.
@@ -371,6 +371,50 @@ fn a_users_puppet_may_use_a_users_servo() {
     }
     let alone = folder("alone", &[("a.toml", &puppet)]);
     assert!(Profiles::builtin().with_user_folder(&alone).is_err());
+}
+
+/// The wrong one is named with its place, the right one works, and the shipped one does not stand in.
+#[test]
+fn a_wrong_file_is_left_out_and_the_others_work() {
+    let right = include_str!("../inputs/boxes/deej.toml").replace("name = \"", "name = \"My ");
+    let wrong = include_str!("../inputs/boxes/sgi-dialbox.toml").replace("status", "statu");
+    let lost = include_str!("../inputs/tablets/hs610.toml").replace("layout = \"", "layout = \"no-");
+    let folder = folder(
+        "some-right",
+        &[
+            ("my-deej.toml", &right),
+            ("sgi-dialbox.toml", &wrong),
+            ("hs610.toml", &lost),
+        ],
+    );
+    let (all, errors) = Profiles::builtin().with_right_files(&folder);
+    assert!(all.input("my-deej").unwrap().name.starts_with("My "));
+    assert!(all.input("sgi-dialbox").is_err() && all.input("hs610").is_err());
+    assert_eq!(all.inputs().count(), Profiles::builtin().inputs().count() - 1);
+    let said: Vec<_> = errors.iter().map(ToString::to_string).collect();
+    assert_eq!(said.len(), 2, "{said:?}");
+    assert!(
+        said[0].contains("sgi-dialbox.toml:") && said[0].contains("statu"),
+        "{said:?}"
+    );
+    assert!(
+        said[1].contains("hs610.toml:") && said[1].contains("no-uclogic"),
+        "{said:?}"
+    );
+    assert!(Profiles::builtin().with_user_folder(&folder).is_err());
+}
+
+/// Read by itself beside the others, a profile has its layout as it has among them.
+#[test]
+fn a_file_read_among_others_has_its_layout() {
+    let text = include_str!("../inputs/tablets/hs610.toml");
+    let folder = folder("among", &[("mine.toml", text)]);
+    let all = Profiles::builtin();
+    let Ok(Kind::Input(mine)) = read_file_among(&folder.join("mine.toml"), &all) else {
+        panic!("it is right");
+    };
+    assert!(!mine.tables().reports.is_empty());
+    assert_eq!(mine.of_layout, all.input("hs610").unwrap().of_layout);
 }
 
 #[test]

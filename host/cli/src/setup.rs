@@ -1,5 +1,6 @@
 //! What live commands begin with: the show, hardware knowledge, a bench beside the machine's ports.
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -12,14 +13,29 @@ use rig::{InputSpec, Live, Pace, Profiles, PuppetSpec, Rig, RigOptions, Snapshot
 use crate::console::Console;
 use crate::failure::Failure;
 
-/// Shipped profiles and the user's own.
+/// Shipped profiles and the user's own. Files of the user's that are wrong are told of and left out.
 pub(crate) fn profiles() -> Result<Arc<Profiles>, Failure> {
-    rig::shipped::profiles(rig::shipped::user_profiles_folder().as_deref())
-        .map(Arc::new)
-        .map_err(|errors| {
-            let lines: Vec<String> = errors.iter().map(ToString::to_string).collect();
-            Failure::refused(lines.join("\n"))
-        })
+    let folder = rig::shipped::user_profiles_folder();
+    if let Some(folder) = folder.as_deref().filter(|folder| folder.is_dir())
+        && let Err(error) = std::fs::read_dir(folder)
+    {
+        let message = format!("{}: {error}", folder.display());
+        return Err(Failure::refused(message)
+            .with_hint("profiles of your own are kept there; grant the right to read it"));
+    }
+    let (profiles, errors) = rig::shipped::right_profiles(folder.as_deref());
+    let mut stderr = std::io::stderr();
+    for error in &errors {
+        // Who cannot be told cannot be told that either.
+        let _ = writeln!(stderr, "{error}");
+    }
+    if !errors.is_empty() {
+        let _ = writeln!(
+            stderr,
+            "these profiles are left out, and nothing stands in for them; `dialrig check FILE` looks at one of them"
+        );
+    }
+    Ok(Arc::new(profiles))
 }
 
 /// A show and where it is saved; the shipped one, without a folder, when none is given.

@@ -145,6 +145,15 @@ pub fn profiles(user: Option<&Path>) -> Result<Profiles, Vec<ProfileError>> {
     }
 }
 
+/// The same without the files of `user` that are wrong, and what is wrong with them: the others work.
+pub fn right_profiles(user: Option<&Path>) -> (Profiles, Vec<ProfileError>) {
+    let shipped = Profiles::builtin();
+    match user {
+        Some(folder) if folder.is_dir() => shipped.with_right_files(folder),
+        _ => (shipped, Vec::new()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
