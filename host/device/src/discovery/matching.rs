@@ -3,6 +3,7 @@
 use super::{Access, Found};
 use crate::codec::outline::ReportKind;
 use device_profiles::{Bus, InputProfile, Match, Profiles};
+use std::collections::BTreeMap;
 
 /// What came out.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,16 +86,22 @@ fn names_something(m: &Match) -> bool {
     m.vendor.is_some() || m.product_text.is_some() || m.maker_text.is_some() || m.serial_text.is_some()
 }
 
-/// Some devices return from their handshake as another product.
+/// Some devices return from their handshake as another product. Of their interfaces it is that which has all that a
+/// match asks for but the ids; strings were answered before, and are not asked for again.
 fn is_sibling(profile: &InputProfile, found: &Found) -> bool {
-    let Some(ids) = found.vendor.zip(found.product) else {
-        return false;
-    };
     let siblings = profile.init.iter().filter_map(|step| step.expect_sibling);
-    found.bus == Bus::Usb
-        && siblings
-            .into_iter()
-            .any(|[vendor, product]| (vendor, product) == ids)
+    siblings.into_iter().any(|[vendor, product]| {
+        profile.matches.iter().any(|m| {
+            let returned = Match {
+                vendor: Some(vendor),
+                product: Some(product),
+                strings: BTreeMap::new(),
+                not_strings: BTreeMap::new(),
+                ..m.clone()
+            };
+            m.bus == Bus::Usb && fit(&returned, found, &mut |_| Err(String::new())).is_ok()
+        })
+    })
 }
 
 fn nobody<'a>(found: &Found, mut on_line: Vec<&'a InputProfile>, misses: &[String]) -> Verdict<'a> {

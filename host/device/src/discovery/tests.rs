@@ -287,6 +287,43 @@ fn strings_it_must_not_have_exclude_and_siblings_are_known() {
     assert!(is_one(&found, ""), "it has returned from its handshake");
 }
 
+/// Revision B of the Deco 01 V2 comes back with three interfaces; the keyboard's and the coarse pen's are not it.
+#[test]
+fn of_a_sibling_only_the_interface_that_reports_is_taken() {
+    let profiles = Profiles::builtin();
+    for (interface, is) in [(0, false), (1, false), (2, true)] {
+        let mut found = hs610();
+        (found.vendor, found.product) = (Some(0x28BD), Some(0x1227));
+        found.interface = Some(interface);
+        let verdict = judge(&found, &profiles, &mut no_strings);
+        let deco = matches!(&verdict, Verdict::One(profile) if profile.key == "deco-01-v2");
+        assert_eq!(deco, is, "interface {interface}: {verdict:?}");
+    }
+    // Without a match of its own the lengths of the reports tell.
+    let mut deco = profile(
+        "deco",
+        vec![usb([0x28BD, 0x0905], |m| m.input_report_bytes = vec![12])],
+    );
+    deco.init = vec![InitStep {
+        string: Some(100),
+        expect_sibling: Some([0x28BD, 0x1227]),
+        ..InitStep::default()
+    }];
+    let profiles = among(vec![deco]);
+    let mut found = hs610();
+    (found.vendor, found.product) = (Some(0x28BD), Some(0x1227));
+    for (bytes, is) in [(12, true), (9, false)] {
+        let length = 8 * (bytes - 1);
+        // A vendor's report 2 of so many bytes.
+        found.outline = crate::codec::outline::Outline::of(&[
+            0x06, 0x0A, 0xFF, 0x09, 1, 0xA1, 1, 0x85, 2, 0x09, 2, 0x15, 0, 0x25, 1, 0x75, 1, 0x95, length,
+            0x81, 2, 0xC0,
+        ]);
+        let one = matches!(judge(&found, &profiles, &mut no_strings), Verdict::One(_));
+        assert_eq!(one, is, "{bytes} bytes");
+    }
+}
+
 #[test]
 fn what_describes_itself_needs_no_profile_and_lines_are_never_asked() {
     let mut found = hs610();
