@@ -118,7 +118,7 @@ pub enum PixelCoding {
     StreamDeckKey,
 }
 
-/// How a ring's position is written.
+/// How the position of a ring, or the level of a meter, is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RingCoding {
@@ -127,6 +127,8 @@ pub enum RingCoding {
     /// 0 dark, 1 to 13 a lamp, 14 to 26 the same blinking; the way of lighting is a message of its own.
     #[serde(rename = "thirteen")]
     Thirteen,
+    /// Mackie's meters: channel pressure, bits 4-6 the strip, bits 0-3 the level, 0 to 12; they fall by themselves.
+    Meter,
     /// The value itself, 0 to 127.
     Plain,
 }

@@ -207,6 +207,13 @@ pub enum Feedback {
         /// Red, green and blue, where the lamp has colours; `None` leaves the colour to the device.
         colour: Option<[u8; 3]>,
     },
+    /// A meter, or a brightness of the whole device.
+    Level {
+        /// From 0.
+        control: u16,
+        /// 0 to 255.
+        level: u8,
+    },
     /// The light of a ring.
     Ring {
         /// From 0.
@@ -223,7 +230,7 @@ pub enum Feedback {
         /// Cut and padded to what the display holds; what is not printable ASCII becomes `?` where it cannot be drawn.
         text: String,
     },
-    /// A picture beside a control, fitted to its screen.
+    /// A picture beside a control, fitted to its screen; where a label is drawn there, it is drawn upon it.
     Picture {
         /// From 0.
         control: u16,

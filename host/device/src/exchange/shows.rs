@@ -32,6 +32,7 @@ pub fn show_words(feedback: &Feedback) -> Option<String> {
                 .unwrap_or_default();
             format!("lamp {control} {level}{colour}")
         }
+        Feedback::Level { control, level } => format!("level {control} {level}"),
         Feedback::Ring {
             control, value: None, ..
         } => format!("ring {control} off"),
@@ -101,6 +102,10 @@ pub(super) fn show(words: &mut Words) -> Result<Feedback, ExchangeError> {
                 ])
             },
         },
+        "level" => Feedback::Level {
+            control: words.number("a level's number")?,
+            level: words.number("a level, 0 to 255")?,
+        },
         "ring" => ring(words)?,
         "label" => Feedback::Label {
             control: words.number("a control's number")?,
@@ -116,7 +121,7 @@ pub(super) fn show(words: &mut Words) -> Result<Feedback, ExchangeError> {
             apart_ms: words.number("milliseconds from click to click")?,
         },
         other => {
-            let known = "lamps, lamp, ring, label, motor, haptic";
+            let known = "lamps, lamp, level, ring, label, motor, haptic";
             return Err(words.at(&first, format!("expected one of {known}, found `{other}`")));
         }
     })

@@ -1,9 +1,9 @@
 //! Inlets of a device's instance: names, kinds, and what arrives there.
 //!
-//! `NAME_LABEL<n>`, `NAME_LAMP<n>`, `NAME_RING<n>` and `NAME_MOTOR<n>` show something beside control `n`; the others set
-//! how controls work. Pages have instances of their own, with inlets of their own to show.
+//! `NAME_LABEL<n>`, `NAME_LAMP<n>`, `NAME_COLOUR<n>`, `NAME_RING<n>`, `NAME_MOTOR<n>`, `NAME_LEVEL<n>` and
+//! `NAME_HAPTIC<n>` show something beside control `n`, or let it be felt; the others set how controls work. Pages have instances of their own, with inlets of their own to show.
 
-use ps300::value::Kinds;
+use ps300::value::{Kind, Kinds};
 
 /// Pages a device has: as many as a hand finds without looking.
 pub(crate) const PAGES: u8 = 4;
@@ -32,6 +32,12 @@ pub(crate) enum Inlet {
     Ring(u8),
     /// Place of a motor fader, on a page: a share.
     Motor(u8),
+    /// A meter, or a brightness of the whole device, on a page: a share.
+    Level(u8),
+    /// Colour of a lamp, or under a label that is drawn, on a page: shares of red, green and blue.
+    Colour(u8),
+    /// Clicks to be felt, each time a number comes.
+    Haptic,
 }
 
 /// The instance of a page.
@@ -55,6 +61,7 @@ pub(crate) fn all(name: &str, count: u8) -> Vec<(String, Inlet, Vec<Kinds>)> {
         (format!("{name}_ZONE"), Inlet::Zone, each(Kinds::NUMBER)),
         (format!("{name}_FINE"), Inlet::Fine, vec![Kinds::BOOLEAN]),
         (format!("{name}_PAGE"), Inlet::Page, page),
+        (format!("{name}_HAPTIC"), Inlet::Haptic, each(lit)),
     ];
     for number in 1..=PAGES {
         let name = instance(name, number);
@@ -62,14 +69,18 @@ pub(crate) fn all(name: &str, count: u8) -> Vec<(String, Inlet, Vec<Kinds>)> {
         inlets.push((format!("{name}_LAMP"), Inlet::Lamp(number), each(lit)));
         inlets.push((format!("{name}_RING"), Inlet::Ring(number), each(Kinds::NUMBER)));
         inlets.push((format!("{name}_MOTOR"), Inlet::Motor(number), each(Kinds::NUMBER)));
+        inlets.push((format!("{name}_LEVEL"), Inlet::Level(number), each(Kinds::NUMBER)));
+        let colour = Kinds::of(&[Kind::Vector3]);
+        inlets.push((format!("{name}_COLOUR"), Inlet::Colour(number), each(colour)));
     }
     inlets
 }
 
 /// The device that a name of one of its pages or inlets speaks of.
 pub(crate) fn device_of(name: &str) -> &str {
-    const WORDS: [&str; 9] = [
-        "MODE", "GEAR", "CURVE", "ZONE", "FINE", "LABEL", "LAMP", "RING", "MOTOR",
+    const WORDS: [&str; 12] = [
+        "MODE", "GEAR", "CURVE", "ZONE", "FINE", "LABEL", "LAMP", "RING", "MOTOR", "LEVEL", "COLOUR",
+        "HAPTIC",
     ];
     let cut = |word: &&str| name.strip_suffix(*word)?.strip_suffix('_');
     let stem = WORDS.iter().find_map(cut).unwrap_or(name);

@@ -292,6 +292,19 @@ impl Instance {
             Inlet::Lamp(page) => self.tell(OutputKind::Lamp, number, page, value),
             Inlet::Ring(page) => self.tell(OutputKind::Ring, number, page, value),
             Inlet::Motor(page) => self.tell(OutputKind::Motor, number, page, value),
+            Inlet::Level(page) => self.tell(OutputKind::Level, number, page, value),
+            Inlet::Colour(page) => {
+                for output in self.outputs.iter_mut().filter(|it| it.inlet == number) {
+                    output.colour(page, value);
+                }
+            }
+            Inlet::Haptic => {
+                let clicks = real.unwrap_or(f64::from(u8::from(on)));
+                let all = self.outputs.iter_mut();
+                for output in all.filter(|it| it.kind == OutputKind::Haptic && it.inlet == number) {
+                    output.click(clicks);
+                }
+            }
         }
         Ok(())
     }

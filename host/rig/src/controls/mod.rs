@@ -74,8 +74,14 @@ impl Controls {
         let taken = |name: &str| self.instances.iter().any(|it| it.name == name);
         let mut name = stem.clone();
         let mut number = 2;
+        // Apart from a digit before: the second NANO2 is no NANO22.
+        let apart = if stem.ends_with(|c: char| c.is_ascii_digit()) {
+            "_"
+        } else {
+            ""
+        };
         while taken(&name) {
-            name = format!("{stem}{number}");
+            name = format!("{stem}{apart}{number}");
             number += 1;
         }
         let mut instance = Instance::new(device, &name, profile);
@@ -337,3 +343,6 @@ pub(crate) fn told(program: &str, is_inlet: &dyn Fn(&Name) -> bool) -> Vec<(Name
     }
     told
 }
+
+#[cfg(test)]
+mod outputs_tests;

@@ -6,7 +6,7 @@
 
 use std::fmt::Write as _;
 
-use device::codec::{Feedback, RingStyle};
+use device::codec::{Feedback, Picture, RingStyle};
 use device_profiles::{InputProfile, OutputKind};
 use ps300::machine::Panel;
 use ps300::value::Value;
@@ -18,13 +18,20 @@ use super::inlets::PAGES;
 const TEST_SECS: f64 = 1.0;
 /// How long a label shows the value after the control moved, seconds.
 pub(crate) const VALUE_SECS: f64 = 1.0;
+/// From one click to the next, milliseconds: apart to a finger, together to a hand that turns.
+const CLICKS_APART_MS: u16 = 120;
 /// Steps of what does not say how many it has: finer than any that is known.
 const LEVELS: u32 = 1024;
 
 /// Something sent, as the device has it.
 #[derive(Clone, Debug, PartialEq)]
 enum Sent {
-    Lamp(u8),
+    Lamp(u8, Option<[u8; 3]>),
+    Level(u8),
+    /// The colour all over it.
+    Picture([u8; 3]),
+    /// How many.
+    Clicks(u8),
     /// In steps of the ring; none is dark.
     Ring(Option<u32>),
     Label(String),
@@ -46,6 +53,10 @@ pub(crate) struct Output {
     levels: u32,
     /// What the network sent, for each page.
     told: [Option<Value>; PAGES as usize],
+    /// Red, green and blue, for each page.
+    colours: [Option<[u8; 3]>; PAGES as usize],
+    /// Clicks that are still to be felt.
+    clicks: u8,
     shown: Option<Sent>,
     tested_until: Option<f64>,
     /// Where a text is put together; kept, so that looking does not allocate.
@@ -95,6 +106,8 @@ pub(crate) fn outputs(profile: &InputProfile, controls: &[Control]) -> Vec<Outpu
                 characters: group.characters.map_or(0, usize::from),
                 levels: group.levels.filter(|it| *it > 1).unwrap_or(LEVELS),
                 told: Default::default(),
+                colours: Default::default(),
+                clicks: 0,
                 shown: None,
                 tested_until: None,
                 text: String::new(),
@@ -113,9 +126,25 @@ impl Output {
         }
     }
 
+    /// The network says of which colour it is to be on a page.
+    pub(crate) fn colour(&mut self, page: u8, value: Option<&Value>) {
+        if let Some(colour) = self.colours.get_mut(usize::from(page).wrapping_sub(1)) {
+            *colour = match value {
+                Some(Value::Vector3(v)) => Some(v.to_array().map(of_255)),
+                _ => None,
+            };
+        }
+    }
+
+    /// It is to click so often, as soon as it can.
+    pub(crate) fn click(&mut self, clicks: f64) {
+        self.clicks = clicks.round().clamp(0.0, 255.0) as u8;
+    }
+
     /// Shows what it can for a moment.
     pub(crate) fn test(&mut self, now_secs: f64) {
         self.tested_until = Some(now_secs + TEST_SECS);
+        self.clicks = 1;
     }
 
     /// The control itself is there now: a motor or a ring that goes with it shows that already.
@@ -134,6 +163,9 @@ impl Output {
             self.tested_until = None;
         }
         let control = self.control.and_then(|place| light.controls.get(place));
+        if self.kind == OutputKind::Haptic {
+            return self.felt();
+        }
         let is_own = matches!(self.kind, OutputKind::Motor | OutputKind::Ring);
         let in_hand = control.is_some_and(|it| it.is_absolute() && it.is_in_hand(light.now_secs));
         if is_own && in_hand {
@@ -210,8 +242,21 @@ impl Output {
         }
     }
 
+    /// Clicks are felt once and not shown again.
+    fn felt(&mut self) -> Option<Feedback> {
+        let clicks = std::mem::take(&mut self.clicks);
+        (clicks > 0)
+            .then(|| self.feedback(&Sent::Clicks(clicks), None))
+            .flatten()
+    }
+
     fn want(&self, light: &Light<'_>, control: Option<&Control>) -> Option<Sent> {
         let told = self.told.get(usize::from(light.page).wrapping_sub(1))?.as_ref();
+        let colour = self
+            .colours
+            .get(usize::from(light.page).wrapping_sub(1))
+            .copied()
+            .flatten();
         let bound = control.and_then(Control::shown_share);
         Some(match self.kind {
             OutputKind::Lamp => {
@@ -226,7 +271,7 @@ impl Output {
                     Some(value) => value.as_number().unwrap_or(0.0),
                     None => f64::from(u8::from(by_panel || own)),
                 };
-                Sent::Lamp((level.clamp(0.0, 1.0) * 255.0).round() as u8)
+                Sent::Lamp(of_255(level), colour)
             }
             OutputKind::Ring => {
                 let share = told.and_then(Value::as_number).or(bound);
@@ -234,7 +279,10 @@ impl Output {
                 Sent::Ring(lit.map(|share| self.step(share)))
             }
             OutputKind::Motor => Sent::Motor(self.step(told.and_then(Value::as_number).or(bound)?)),
-            OutputKind::Label | OutputKind::Picture | OutputKind::Haptic | OutputKind::Level => return None,
+            // A meter without a word shows where what is bound stands; a device's brightness is its own affair.
+            OutputKind::Level => Sent::Level(of_255(told.and_then(Value::as_number).or(bound)?)),
+            OutputKind::Picture => Sent::Picture(colour.unwrap_or_default()),
+            OutputKind::Label | OutputKind::Haptic => return None,
         })
     }
 
@@ -243,11 +291,13 @@ impl Output {
         let left = self.tested_until.map_or(0.0, |until| until - light.now_secs);
         let share = (1.0 - left / TEST_SECS).clamp(0.0, 1.0);
         Some(match self.kind {
-            OutputKind::Lamp => Sent::Lamp(255),
+            OutputKind::Lamp => Sent::Lamp(255, None),
+            OutputKind::Level => Sent::Level(of_255(share)),
+            OutputKind::Picture => Sent::Picture([255; 3]),
             OutputKind::Ring => Sent::Ring(Some(self.step(share))),
             // There and back, not to an end.
             OutputKind::Motor => Sent::Motor(self.step(0.25 + share / 2.0)),
-            OutputKind::Label | OutputKind::Picture | OutputKind::Haptic | OutputKind::Level => return None,
+            OutputKind::Label | OutputKind::Haptic => return None,
         })
     }
 
@@ -263,10 +313,23 @@ impl Output {
                 control: number,
                 text: text.clone(),
             },
-            Sent::Lamp(level) => Feedback::Lamp {
+            Sent::Lamp(level, colour) => Feedback::Lamp {
                 control: number,
                 level: *level,
-                colour: None,
+                colour: *colour,
+            },
+            Sent::Level(level) => Feedback::Level {
+                control: number,
+                level: *level,
+            },
+            Sent::Picture(colour) => Feedback::Picture {
+                control: number,
+                picture: Picture::new(1, 1, colour.to_vec())?,
+            },
+            Sent::Clicks(clicks) => Feedback::Haptic {
+                control: number,
+                clicks: *clicks,
+                apart_ms: CLICKS_APART_MS,
             },
             Sent::Ring(step) => Feedback::Ring {
                 control: number,
@@ -295,7 +358,9 @@ impl Output {
         match &self.shown {
             None | Some(Sent::Ring(None)) => String::new(),
             Some(Sent::Label(text)) => text.clone(),
-            Some(Sent::Lamp(level)) => match level {
+            Some(Sent::Picture(colour)) => format!("{colour:?}"),
+            Some(Sent::Clicks(clicks)) => format!("{clicks} clicks"),
+            Some(Sent::Lamp(level, _) | Sent::Level(level)) => match level {
                 0 => "off".to_owned(),
                 255 => "on".to_owned(),
                 level => format!("{:.0} %", 100.0 * f64::from(*level) / 255.0),
@@ -305,11 +370,18 @@ impl Output {
     }
 }
 
+/// A share in 255 steps.
+fn of_255(share: f64) -> u8 {
+    (share.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
 impl Sent {
     /// What a device shows that was never told anything.
     fn is_nothing(&self) -> bool {
         match self {
-            Self::Lamp(level) => *level == 0,
+            Self::Lamp(level, _) | Self::Level(level) => *level == 0,
+            Self::Picture(colour) => *colour == [0; 3],
+            Self::Clicks(clicks) => *clicks == 0,
             Self::Ring(step) => step.is_none(),
             Self::Label(text) => text.is_empty(),
             Self::Motor(_) => false,

@@ -23,6 +23,9 @@ const TEXT_MARGIN: f32 = 0.04;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pictures {
     screens: Vec<Screen>,
+    /// What is to be seen behind the labels, in the size of the screen.
+    under: BTreeMap<usize, Picture>,
+    texts: BTreeMap<usize, String>,
     wanted: BTreeMap<usize, Picture>,
     sent: BTreeMap<usize, Picture>,
 }
@@ -53,19 +56,26 @@ impl Pictures {
 
     /// Notes what is wanted, and sends what is new.
     pub(super) fn want(&mut self, feedback: &Feedback, started: bool, out: &mut Outgoing) {
-        let (control, picture) = match feedback {
-            Feedback::Picture { control, picture } => (*control, Some(picture)),
-            Feedback::Label { control, .. } => (*control, None),
-            _ => return,
+        let (Feedback::Picture { control, .. } | Feedback::Label { control, .. }) = feedback else {
+            return;
         };
-        let at = usize::from(control);
+        let at = usize::from(*control);
         let Some(screen) = self.screens.get(at) else {
             return;
         };
-        let picture = match (picture, feedback) {
-            (Some(picture), _) => Some(fitted(picture, screen.size)),
-            (None, Feedback::Label { text, .. }) => drawn(text, screen.size),
-            _ => None,
+        match feedback {
+            Feedback::Picture { picture, .. } => {
+                self.under.insert(at, fitted(picture, screen.size));
+            }
+            Feedback::Label { text, .. } => {
+                self.texts.insert(at, text.clone());
+            }
+            _ => {}
+        }
+        let picture = match (self.under.get(&at), self.texts.get(&at)) {
+            (under, Some(text)) => drawn(text, screen.size, under),
+            (Some(under), None) => Some(under.clone()),
+            (None, None) => None,
         };
         if let Some(picture) = picture {
             self.wanted.insert(at, picture);
@@ -156,8 +166,8 @@ fn fitted(picture: &Picture, [width, height]: [u16; 2]) -> Picture {
     Picture::new(width, height, rgb).unwrap_or_else(|| picture.clone())
 }
 
-/// White text on black, in the middle, as large as it fits.
-fn drawn(text: &str, [width, height]: [u16; 2]) -> Option<Picture> {
+/// Text in the middle, as large as it fits: white on black, or upon a picture, on a light one black.
+fn drawn(text: &str, [width, height]: [u16; 2], under: Option<&Picture>) -> Option<Picture> {
     let font = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).ok()?;
     let [wide, high] = [width, height].map(f32::from);
     let room = wide * (1.0 - 2.0 * TEXT_MARGIN);
@@ -198,8 +208,26 @@ fn drawn(text: &str, [width, height]: [u16; 2]) -> Option<Picture> {
             }
         });
     }
-    let rgb: Vec<u8> = light.iter().flat_map(|&pixel| [pixel; 3]).collect();
-    Picture::new(width, height, rgb)
+    Picture::new(
+        width,
+        height,
+        upon(&light, under.map(Picture::rgb).unwrap_or_default()),
+    )
+}
+
+/// Mixes the text's light into what lies under it, black where there is nothing.
+fn upon(light: &[u8], under: &[u8]) -> Vec<u8> {
+    let sum = under.iter().map(|&part| u64::from(part)).sum::<u64>();
+    let ink: u8 = if sum > under.len() as u64 * 128 { 0 } else { 255 };
+    let mix = |cover: u8, part: u8| {
+        let [cover, part, ink] = [cover, part, ink].map(u16::from);
+        ((ink * cover + part * (255 - cover)) / 255) as u8
+    };
+    let part = |at: usize| under.get(at).copied().unwrap_or(0);
+    let pixels = light.iter().enumerate();
+    pixels
+        .flat_map(|(at, &cover)| [0, 1, 2].map(|n| mix(cover, part(at * 3 + n))))
+        .collect()
 }
 
 #[cfg(test)]
@@ -283,6 +311,26 @@ mod tests {
         assert_eq!(sent(&mut deck(), &label(12, "no such")), Vec::<Vec<u8>>::new());
     }
 
+    /// Yellow under black letters; the colour stays when the text changes.
+    #[test]
+    fn a_label_is_drawn_upon_a_picture() {
+        let mut deck = deck();
+        sent(&mut deck, &label(5, "Elbow"));
+        let yellow = Picture::new(1, 1, vec![255, 230, 0]).expect("a pixel");
+        let picture = Feedback::Picture {
+            control: 5,
+            picture: yellow,
+        };
+        assert!(!sent(&mut deck, &picture).is_empty());
+        let both = deck.wanted.get(&5).expect("it is wanted").clone();
+        assert_eq!(both.rgb()[..3], [255, 230, 0], "the corner");
+        let darkest = both.rgb().chunks(3).map(|pixel| pixel[0]).min();
+        assert!(darkest < Some(60), "{darkest:?}");
+        assert!(!sent(&mut deck, &label(5, "Wrist")).is_empty());
+        assert_eq!(deck.wanted[&5].rgb()[..3], [255, 230, 0]);
+        assert_ne!(deck.wanted[&5], both);
+    }
+
     #[test]
     fn text_of_any_length_stays_inside() {
         for text in [
@@ -291,7 +339,7 @@ mod tests {
             "i",
             "a label that is far too long for any screen of this size, and goes on",
         ] {
-            assert!(drawn(text, [200, 100]).is_some(), "{text}");
+            assert!(drawn(text, [200, 100], None).is_some(), "{text}");
         }
     }
 }

@@ -23,16 +23,14 @@ struct Group {
 }
 
 impl Shown {
-    /// Lamps are numbered first, then brightnesses of the whole device.
+    /// Each kind is numbered from 0.
     pub(super) fn new(profile: &InputProfile) -> Self {
         let mut groups = Vec::new();
-        for kinds in [&[OutputKind::Lamp, OutputKind::Level][..], &[OutputKind::Haptic]] {
+        for kind in [OutputKind::Lamp, OutputKind::Level, OutputKind::Haptic] {
             let mut first = 0;
-            for &kind in kinds {
-                for output in profile.outputs.iter().filter(|o| o.kind == kind) {
-                    groups.extend(Group::new(output, first));
-                    first += output.count;
-                }
+            for output in profile.outputs.iter().filter(|o| o.kind == kind) {
+                groups.extend(Group::new(output, first));
+                first += output.count;
             }
         }
         Self { groups }
@@ -53,18 +51,8 @@ impl Shown {
                     }
                 }
             }
-            Feedback::Lamp { control, level, .. } => {
-                let lamps = self
-                    .groups
-                    .iter_mut()
-                    .filter(|g| g.output.kind != OutputKind::Haptic);
-                for group in lamps {
-                    let at = control.checked_sub(group.first).map(usize::from);
-                    if let Some(wanted) = at.and_then(|at| group.wanted.get_mut(at)) {
-                        *wanted = Some(steps(&group.output, level));
-                    }
-                }
-            }
+            Feedback::Lamp { control, level, .. } => self.light(OutputKind::Lamp, control, level),
+            Feedback::Level { control, level } => self.light(OutputKind::Level, control, level),
             Feedback::Haptic {
                 control,
                 clicks: clicks @ 1..,
@@ -82,6 +70,15 @@ impl Shown {
         }
         if started {
             self.send_changes(out);
+        }
+    }
+
+    fn light(&mut self, kind: OutputKind, control: u16, level: u8) {
+        for group in self.groups.iter_mut().filter(|g| g.output.kind == kind) {
+            let at = control.checked_sub(group.first).map(usize::from);
+            if let Some(wanted) = at.and_then(|at| group.wanted.get_mut(at)) {
+                *wanted = Some(steps(&group.output, level));
+            }
         }
     }
 
@@ -242,7 +239,12 @@ mod tests {
         let mut deck = shown("stream-deck-plus");
         let mut half = vec![3, 8, 50];
         half.resize(32, 0);
-        assert_eq!(sent(&mut deck, &lamp(0, 128)), [Step::Feature(half)]);
+        let level = Feedback::Level {
+            control: 0,
+            level: 128,
+        };
+        assert_eq!(sent(&mut deck, &level), [Step::Feature(half)]);
+        assert_eq!(sent(&mut deck, &lamp(0, 128)), [], "it has no lamps");
         let mut dial = shown("surface-dial");
         let clicks = |clicks, apart_ms| Feedback::Haptic {
             control: 0,

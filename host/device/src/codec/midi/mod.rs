@@ -26,6 +26,9 @@ use woken::Waking;
 /// Low bits come right behind the high ones: 1 ms on a wire of 31250 baud. Behind that pause they are 0 (ours).
 const FINE_LIMIT: Duration = Duration::from_millis(20);
 
+/// Meters fall by a step in some 300 ms: said again so often, they stay (ours).
+const METERS_AGAIN: Duration = Duration::from_millis(200);
+
 /// The host's side of a controller.
 #[derive(Debug)]
 pub struct Midi {
@@ -39,6 +42,8 @@ pub struct Midi {
     known: bool,
     /// When high bits were first seen without their low ones.
     fine_since: Option<Instant>,
+    /// When meters were said again last.
+    meters_at: Instant,
     counters: Counters,
 }
 
@@ -54,6 +59,7 @@ impl Midi {
             waking: Waking::new(profile),
             known: false,
             fine_since: None,
+            meters_at: Instant::ZERO,
             counters: Counters::default(),
         }
     }
@@ -138,6 +144,10 @@ impl Codec for Midi {
             let motors_out = &self.motors_out;
             self.motors
                 .due(now, |axis, value| motors_out.send(axis, value, out));
+            if now.since(self.meters_at) >= METERS_AGAIN {
+                self.meters_at = now;
+                self.shadow.say_meters_again(out);
+            }
         }
     }
 

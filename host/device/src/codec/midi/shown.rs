@@ -20,12 +20,15 @@ struct Message {
 }
 
 impl Message {
-    fn send(&mut self, out: &mut Outgoing) {
-        if !self.wanted.is_empty() && self.wanted != self.sent {
+    /// Whether it was sent.
+    fn send(&mut self, out: &mut Outgoing) -> bool {
+        let differs = !self.wanted.is_empty() && self.wanted != self.sent;
+        if differs {
             out.bytes(&self.wanted);
             self.sent.clear();
             self.sent.extend_from_slice(&self.wanted);
         }
+        differs
     }
 }
 
@@ -89,6 +92,7 @@ pub(super) struct Shadow {
     lamps: Vec<Shown>,
     rings: Vec<Shown>,
     labels: Vec<Shown>,
+    levels: Vec<Shown>,
 }
 
 impl Shadow {
@@ -104,6 +108,7 @@ impl Shadow {
             lamps: of(OutputKind::Lamp),
             rings: of(OutputKind::Ring),
             labels: of(OutputKind::Label),
+            levels: of(OutputKind::Level),
         };
         shadow.lamps.iter_mut().for_each(|lamp| lamp.light(0, None));
         shadow
@@ -111,6 +116,12 @@ impl Shadow {
             .iter_mut()
             .for_each(|ring| ring.turn(None, RingStyle::Dot));
         shadow.labels.iter_mut().for_each(|label| label.write(""));
+        // Meters are down by themselves.
+        let others = shadow
+            .levels
+            .iter_mut()
+            .filter(|it| it.coding != RingCoding::Meter);
+        others.for_each(|level| level.rise(0));
         shadow
     }
 
@@ -129,6 +140,11 @@ impl Shadow {
             } => {
                 if let Some(lamp) = self.lamps.get_mut(usize::from(*control)) {
                     lamp.light(*level, *colour);
+                }
+            }
+            Feedback::Level { control, level } => {
+                if let Some(shown) = self.levels.get_mut(usize::from(*control)) {
+                    shown.rise(*level);
                 }
             }
             Feedback::Ring {
@@ -159,13 +175,29 @@ impl Shadow {
     /// Sends what differs.
     pub(super) fn send(&mut self, out: &mut Outgoing) {
         for shown in self.all() {
-            shown.messages.iter_mut().for_each(|message| message.send(out));
+            let [before, message] = &mut shown.messages;
+            if before.send(out) {
+                // Another way of lighting leaves the ring as it was lit before, or dark.
+                message.sent.clear();
+            }
+            message.send(out);
+        }
+    }
+
+    /// Meters fall by themselves: those that are up are said again.
+    pub(super) fn say_meters_again(&mut self, out: &mut Outgoing) {
+        for meter in self.levels.iter_mut().filter(|it| it.coding == RingCoding::Meter) {
+            let message = &mut meter.messages[1];
+            if message.wanted.last().is_some_and(|value| value & 0x0F > 0) {
+                message.sent.clear();
+                message.send(out);
+            }
         }
     }
 
     fn all(&mut self) -> impl Iterator<Item = &mut Shown> {
         let lamps_and_rings = self.lamps.iter_mut().chain(&mut self.rings);
-        lamps_and_rings.chain(&mut self.labels)
+        lamps_and_rings.chain(&mut self.labels).chain(&mut self.levels)
     }
 }
 
@@ -232,8 +264,24 @@ impl Shown {
                 }
                 address.write(place(13.0).unwrap_or(0), &mut self.messages[1].wanted);
             }
-            RingCoding::Plain => self.put(share.map_or(0, |share| (share * 127.0).round() as u8), &[]),
+            RingCoding::Plain | RingCoding::Meter => {
+                self.put(share.map_or(0, |share| (share * 127.0).round() as u8), &[])
+            }
         }
+    }
+
+    /// `level` 0 to 255 of a meter or a brightness.
+    fn rise(&mut self, level: u8) {
+        if self.coding == RingCoding::Meter {
+            // Channel pressure: the strip above, below it 0 to 12.
+            let step = (u16::from(level) * 12).div_ceil(255) as u8;
+            let message = &mut self.messages[1].wanted;
+            message.clear();
+            message.extend([0xD0, (self.number & 7) << 4 | step]);
+            return;
+        }
+        let steps = self.levels - 1;
+        self.put(((u32::from(level) * steps + 127) / 255 * 127 / steps) as u8, &[]);
     }
 
     /// Exactly as many characters as there are; what is not printable ASCII becomes a question mark.

@@ -467,3 +467,30 @@ proptest! {
         }
     }
 }
+
+/// A ring that is to be lit another way shows its value only when that is said again.
+#[test]
+fn another_way_of_lighting_is_followed_by_the_value() {
+    let (mut bench, _) = Bench::woken(&builtin("x-touch-mini"));
+    let ring = |value, style| Feedback::Ring {
+        control: 0,
+        value: Some(value),
+        style,
+    };
+    assert_eq!(bench.show(&ring(0.5, RingStyle::Fan)), [0xBA, 1, 2, 0xBA, 9, 7]);
+    assert_eq!(bench.show(&ring(0.5, RingStyle::Fan)), []);
+    assert_eq!(bench.show(&ring(0.5, RingStyle::Pan)), [0xBA, 1, 1, 0xBA, 9, 7]);
+    assert_eq!(bench.show(&ring(1.0, RingStyle::Pan)), [0xBA, 9, 13]);
+}
+
+/// They fall by themselves and are held up, until they are to be down.
+#[test]
+fn meters_are_held_up() {
+    let (mut bench, _) = Bench::woken(&builtin("mackie-control"));
+    let level = |level| Feedback::Level { control: 2, level };
+    assert_eq!(bench.show(&level(255)), [0xD0, 0x2C]);
+    assert_eq!(bench.pass(1000), [0xD0, 0x2C].repeat(5));
+    assert_eq!(bench.show(&level(1)), [0xD0, 0x21], "what is not nothing is seen");
+    assert_eq!(bench.show(&level(0)), [0xD0, 0x20]);
+    assert_eq!(bench.pass(1000), []);
+}
