@@ -76,6 +76,7 @@ fn heavy_and_impure_libraries_stay_where_they_belong() {
         ("wgpu", &["ui"]),
         ("serialport", &["device", "dialrig-tests"]),
         ("hidapi", &["device", "dialrig-tests"]),
+        ("midir", &["device"]),
         ("rosc", &["device"]),
         ("rusb", &["device", "dialrig-tests"]),
         ("clap", &["dialrig", "dialrig-tests"]),

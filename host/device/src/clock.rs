@@ -59,6 +59,11 @@ pub trait Clock: Send + Sync {
     fn now(&self) -> Instant;
     /// Returns at `deadline` or later; at once if it has passed.
     fn sleep_until(&self, deadline: Instant);
+    /// The time of day, since the beginning of 1970 in UTC: only for what other machines say of it. `None`: this clock
+    /// knows none.
+    fn time_of_day(&self) -> Option<Duration> {
+        None
+    }
 }
 
 impl<C: Clock + ?Sized> Clock for Arc<C> {
@@ -68,6 +73,10 @@ impl<C: Clock + ?Sized> Clock for Arc<C> {
 
     fn sleep_until(&self, deadline: Instant) {
         (**self).sleep_until(deadline);
+    }
+
+    fn time_of_day(&self) -> Option<Duration> {
+        (**self).time_of_day()
     }
 }
 
@@ -102,6 +111,12 @@ impl Clock for MonotonicClock {
         // A sleep may end early only by a signal, and `thread::sleep` goes on after one.
         #[allow(clippy::disallowed_methods)]
         std::thread::sleep(deadline.since(self.now()));
+    }
+
+    fn time_of_day(&self) -> Option<Duration> {
+        #[allow(clippy::disallowed_methods)]
+        let now = std::time::SystemTime::now();
+        now.duration_since(std::time::UNIX_EPOCH).ok()
     }
 }
 

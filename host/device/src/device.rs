@@ -7,7 +7,7 @@ use steps::Steps;
 use crate::clock::{Clock, Instant};
 use crate::codec::hid::{self, HidCodec};
 use crate::codec::{self, Codec, Counters, Feedback, InputEvent, Stamped, Stand, Surface, UnknownFormat};
-use crate::transport::{Transport, TransportError};
+use crate::transport::{Closed, Transport, TransportError};
 use device_profiles::InputProfile;
 use std::time::Duration;
 
@@ -47,6 +47,8 @@ pub struct Device {
     begun: bool,
     silent_since: Option<Instant>,
     lost: Option<TransportError>,
+    /// What was held when somebody let go of the line, to be told by the next poll.
+    let_go: Vec<InputEvent>,
     steps: Steps,
     /// The latest poll's time.
     now: Instant,
@@ -71,6 +73,7 @@ impl Device {
             begun: false,
             silent_since: None,
             lost: None,
+            let_go: Vec::new(),
             steps: Steps::default(),
             now: Instant::ZERO,
             buffer: vec![0; READ_BYTES],
@@ -107,6 +110,7 @@ impl Device {
 
     /// Takes what has arrived, goes on with the conversation, and appends the events. Never waits.
     pub fn poll(&mut self, now: Instant, events: &mut Vec<Stamped<InputEvent>>) -> Health {
+        self.tell_let_go(now, events);
         if self.lost.is_some() {
             return Health::Lost;
         }
@@ -188,6 +192,22 @@ impl Device {
         self.codec
             .let_go(&mut |what| events.push(Stamped { at: now, what }));
         self.lost = Some(error);
+    }
+
+    /// Lets go of the line on purpose. [`Device::tell_let_go`] says what is not held any more, and [`Device::reconnect`]
+    /// goes on, also with the line of another device of the kind.
+    pub fn close(&mut self) {
+        let held = &mut self.let_go;
+        self.codec.let_go(&mut |what| held.push(what));
+        let name = self.name.clone();
+        self.transport = Box::new(Closed { name: name.clone() });
+        self.lost = Some(TransportError::Gone { address: name });
+    }
+
+    /// Appends what was held when the line was let go of; once.
+    pub fn tell_let_go(&mut self, now: Instant, events: &mut Vec<Stamped<InputEvent>>) {
+        let let_go = self.let_go.drain(..);
+        events.extend(let_go.map(|what| Stamped { at: now, what }));
     }
 
     /// Has the device show something; kept and sent later where it is not ready. A line that is gone is found

@@ -23,6 +23,11 @@ use crate::ports::Ports;
 /// comparable drivers do.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
 
+/// How long a line that was let go of may still be taken: threads that read look up ten times a second.
+const FREE_WITHIN: Duration = Duration::from_millis(500);
+/// Between two attempts in that time.
+const TRY_FREE_AGAIN: Duration = Duration::from_millis(50);
+
 /// An input device to be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputSpec {
@@ -97,6 +102,8 @@ struct Seat {
     look_at: Instant,
     /// It is looked for in every step, and nobody is told.
     eager: bool,
+    /// Since when somebody else has it.
+    busy_since: Option<Instant>,
 }
 
 /// A device out of its line; an error in words.
@@ -255,6 +262,7 @@ impl Seat {
             events: 0,
             look_at: Instant::ZERO,
             eager: false,
+            busy_since: None,
             profile,
         }
     }
@@ -269,9 +277,11 @@ impl Seat {
         if self.may_be_opened() && now >= self.look_at {
             self.look(now, ports, noticed);
         }
-        let Some(device) = self.device.as_mut().filter(|_| self.open) else {
+        let Some(device) = &mut self.device else { return };
+        device.tell_let_go(now, heard);
+        if !self.open {
             return;
-        };
+        }
         let health = match device.poll(now, heard) {
             Health::Present => DeviceHealth::Present,
             Health::Silent { .. } => DeviceHealth::Starting,
@@ -311,7 +321,7 @@ impl Seat {
             Ok(line) => return self.take(line),
             Err(error) => error,
         };
-        if settling || self.eager {
+        if settling || self.eager || self.may_be_our_own(&error, now) {
             return;
         }
         self.health = match &error {
@@ -326,7 +336,23 @@ impl Seat {
         noticed(Change::Absent(self.spec.name.clone(), error.to_string()));
     }
 
+    /// A line let go of is free only when the thread that reads it has noticed: for so long somebody having it means
+    /// nothing, and it is tried again soon.
+    fn may_be_our_own(&mut self, error: &TransportError, now: Instant) -> bool {
+        if !matches!(error, TransportError::Busy { .. }) {
+            self.busy_since = None;
+            return false;
+        }
+        let since = *self.busy_since.get_or_insert(now);
+        let soon = now.since(since) < FREE_WITHIN;
+        if soon {
+            self.look_at = now.after(TRY_FREE_AGAIN);
+        }
+        soon
+    }
+
     fn take(&mut self, line: Box<dyn Transport>) {
+        self.busy_since = None;
         self.health = DeviceHealth::Starting;
         self.open = true;
         match &mut self.device {

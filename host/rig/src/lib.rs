@@ -20,6 +20,7 @@ pub mod history;
 mod identities;
 mod inputs;
 pub mod journal;
+pub mod lines;
 pub mod listen;
 pub mod live;
 pub mod maintenance;

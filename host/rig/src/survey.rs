@@ -78,8 +78,8 @@ fn told(verdict: Verdict<'_>) -> (Vec<String>, bool, Option<String>) {
             (Vec::new(), true, Some(why))
         }
         Verdict::Line(all) => {
-            let why =
-                "a serial line does not say what hangs on it; name the device's profile and this address";
+            let why = "a serial line does not say what hangs on it; name the device's profile and this address, or have it asked \
+                 with `dialrig devices --ask`";
             (keys(&all), false, Some(why.to_owned()))
         }
         Verdict::Nobody(why) => (Vec::new(), false, Some(why)),

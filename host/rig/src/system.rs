@@ -12,6 +12,7 @@ use device_profiles::{InputProfile, Line, Profiles};
 
 use crate::command::Touch;
 use crate::identities::{Identities, Unit};
+use crate::lines::Lines;
 use crate::ports::{Found, Plug, Ports, TouchError};
 use crate::survey::{self, Lookout, Surveyed};
 
@@ -31,6 +32,7 @@ pub struct SystemPorts {
 struct Known {
     profiles: Arc<Profiles>,
     identities: Identities,
+    lines: Lines,
     strings: Strings,
     lookout: Option<Lookout>,
     /// The other interfaces of the device at an address.
@@ -60,12 +62,22 @@ impl SystemPorts {
             known: Some(Known {
                 profiles,
                 identities: Identities::load(folder),
+                lines: Lines::load(folder),
                 strings: Strings::new(),
                 lookout: None,
                 beside: BTreeMap::new(),
                 units: BTreeMap::new(),
             }),
         }
+    }
+
+    /// The same, and who is at serial ports that were asked is remembered in `folder`.
+    #[must_use]
+    pub fn with_lines(mut self, folder: Option<&Path>) -> Self {
+        if let Some(known) = &mut self.known {
+            known.lines = Lines::load(folder);
+        }
+        self
     }
 
     /// The same, looking again and again by a thread of its own, so that listing never waits for a device.
@@ -148,10 +160,11 @@ fn unknown(port: ports::Found) -> Found {
 
 impl Known {
     fn list(&mut self, places: &Places) -> Vec<Found> {
-        let seen = match &self.lookout {
+        let mut seen = match &self.lookout {
             Some(lookout) => lookout.latest(),
             None => survey::survey(places, &self.profiles, &mut self.strings),
         };
+        self.lines.apply(&mut seen, &self.profiles);
         self.beside = seen
             .iter()
             .map(|one| (one.found.address.clone(), one.beside.clone()))

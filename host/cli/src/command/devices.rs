@@ -21,6 +21,7 @@ const EXAMPLES: &str = "\
 Examples:
   dialrig devices
   dialrig devices --watch --json
+  dialrig devices --ask                     asks at serial ports who is there, and remembers who answered
   sudo dialrig devices --install-rules      lets whoever sits at the machine open every device that is known";
 
 /// How often the list is made anew while watching.
@@ -36,6 +37,10 @@ pub(crate) struct Args {
     /// Goes on, telling what comes and goes, until Ctrl-C
     #[arg(long)]
     watch: bool,
+    /// Asks at every serial port that says nothing of itself and that nobody has open. The question is a tablet's; other
+    /// devices may take it for something else
+    #[arg(long, conflicts_with = "install_rules")]
+    ask: bool,
     /// Writes the udev rules for all devices that are known, and the module options without which the kernel shows some
     /// of them to nobody; only root may
     #[arg(long, conflicts_with = "watch")]
@@ -69,6 +74,9 @@ struct Record<'a> {
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     if args.install_rules {
         return install::run(args.rules_file.as_deref(), args.modprobe_file.as_deref(), console);
+    }
+    if args.ask {
+        ask(console)?;
     }
     let mut ports = Everything::new()?;
     let mut found = ports.list();
@@ -112,6 +120,20 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
+/// Asks, and tells who could not be asked; who answered is in the list.
+fn ask(console: &Console) -> Result<(), Failure> {
+    let profiles = setup::profiles()?;
+    let folder = rig::shipped::user_folder();
+    for asked in rig::lines::ask(&profiles, rig::real_time().as_ref(), folder.as_deref()) {
+        match asked.who {
+            Ok(Some(profile)) => console.remark(format_args!("{}: {profile} answered", asked.address)),
+            Ok(None) => console.remark(format_args!("{}: nobody answered", asked.address)),
+            Err(why) => console.remark(format_args!("{}: not asked: {why}", asked.address)),
+        }
+    }
+    Ok(())
+}
+
 /// Why nothing is taken, and who is in the way.
 fn notes(port: &Found) -> impl Iterator<Item = &str> {
     let held = port.held.as_ref().map(|held| held.remedy.as_str());
@@ -139,7 +161,8 @@ impl Everything {
             .map_err(|error| Failure::refused(error.to_string()))?;
         // Looking must not change which device is which, so nothing is remembered here.
         Ok(Self {
-            system: SystemPorts::knowing(clock, profiles, None),
+            system: SystemPorts::knowing(clock, profiles, None)
+                .with_lines(rig::shipped::user_folder().as_deref()),
             bench: SimPorts::new(stand),
         })
     }

@@ -33,6 +33,7 @@ pub mod wacom_v;
 pub use event::{Feedback, InputEvent, PenSample, Picture, RingStyle, Stamped, Surface, Tool};
 pub use formats::{Stand, UnknownFormat, of_profile};
 pub use handshake::Handshake;
+pub use osc::due as osc_due;
 pub use outgoing::{Answer, Outgoing, Step};
 
 use crate::clock::Instant;

@@ -11,6 +11,7 @@ use super::{Codec, Counters, Feedback, InputEvent, Outgoing};
 use crate::clock::Instant;
 use address::{Addresses, Meaning};
 use device_profiles::{ControlClass, InputProfile, OutputKind};
+pub use packet::due;
 use rosc::{OscMessage, OscPacket, OscType};
 use std::collections::BTreeMap;
 
@@ -94,8 +95,7 @@ impl Osc {
     fn take(&mut self, packet: OscPacket, depth: usize, emit: &mut dyn FnMut(InputEvent)) {
         match packet {
             OscPacket::Message(message) => self.hear(&message, emit),
-            // A bundle's parts belong to one moment; its time tag is of another machine's clock, and what it holds
-            // is taken when it comes.
+            // A bundle's parts belong to one moment. One that is for later comes later: the port keeps it.
             OscPacket::Bundle(bundle) if depth < DEPTH_MAX => {
                 for part in bundle.content {
                     self.take(part, depth + 1, emit);
@@ -252,7 +252,10 @@ impl Codec for Osc {
                 self.labels.wanted.insert(*control, text.clone());
             }
             Feedback::Motor { control, value } => self.motors.want(*control, *value),
-            Feedback::Ring { .. } | Feedback::Picture { .. } | Feedback::Haptic { .. } => {}
+            Feedback::Level { .. }
+            | Feedback::Ring { .. }
+            | Feedback::Picture { .. }
+            | Feedback::Haptic { .. } => {}
         }
         if self.started {
             self.send_changes(out);

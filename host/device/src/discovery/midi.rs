@@ -36,3 +36,20 @@ fn node(places: &Places, name: &str) -> Option<Found> {
     }
     Some(found)
 }
+
+/// The ports of the system's own library, where it was asked for at building. On Linux the nodes are the devices, and
+/// programs' ports no input devices.
+pub(super) fn library_ports() -> Vec<Found> {
+    #[cfg(feature = "midir")]
+    if !cfg!(target_os = "linux") {
+        let port = |name: String| Found {
+            title: name.clone(),
+            ..Found::new(&format!("midi:{name}"), Bus::Midi)
+        };
+        return crate::transport::midi_ports::names()
+            .into_iter()
+            .map(port)
+            .collect();
+    }
+    Vec::new()
+}

@@ -1,11 +1,13 @@
 //! What is plugged in, and which profile it is.
 //!
 //! Knows: what the system tells of devices without opening them ([`Found`]), how that is held against the profiles
-//! ([`judge`]), which drivers get in the way ([`holder`]), which rule grants the right to open ([`rules`]). Must not
+//! ([`judge`]), which drivers get in the way ([`holder`]), which rule grants the right to open ([`rules`]), and, where a person wants
+//! it, who is at a serial line ([`ask`]). Must not
 //! know: what anybody does with a device, and any one device's facts: those are in the profiles.
 //!
 //! Start at [`list`], then [`judge`].
 
+mod asking;
 mod drivers;
 mod found;
 mod matching;
@@ -16,6 +18,7 @@ mod rules;
 mod strings;
 mod sysfs;
 
+pub use asking::ask;
 pub use drivers::{Holder, holder};
 pub use found::{Access, Found};
 pub use matching::{Verdict, judge};
@@ -55,6 +58,7 @@ pub fn list(places: &Places) -> Vec<Found> {
     let mut found = sysfs::hid(&places.sys, &places.dev);
     found.extend(nodeless::devices(places, &found));
     found.extend(midi::nodes(places));
+    found.extend(midi::library_ports());
     found.extend(ports::list().into_iter().map(|port| serial(port, &places.sys)));
     found.sort_by(|a, b| a.address.cmp(&b.address));
     found

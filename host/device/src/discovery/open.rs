@@ -2,6 +2,7 @@
 
 use super::{Places, sysfs};
 use crate::clock::Clock;
+use crate::codec;
 use crate::transport::{self, Address, Transport, TransportError, hid, midi_raw, osc, ports, stamped_serial};
 use device_profiles::Line;
 use std::path::Path;
@@ -30,7 +31,8 @@ pub fn open(
             Ok(Box::new(hid::open(path, usb, clock)?))
         }
         Address::Path(path) if midi_raw::is_node(path) => Ok(Box::new(midi_raw::open(path, clock)?)),
-        Address::Osc(place) => Ok(Box::new(osc::open(*place, clock)?)),
+        Address::Midi(name) => midi_port(name, clock),
+        Address::Osc(place) => Ok(Box::new(osc::open(*place, codec::osc_due, clock)?)),
         Address::Path(path) => serial(path, clock),
         Address::Usb(wanted) => {
             let ports = ports::list();
@@ -41,6 +43,18 @@ pub fn open(
         }
         other => transport::open(other, line.map_or(0, |line| line.baud)),
     }
+}
+
+#[cfg(feature = "midir")]
+fn midi_port(name: &str, clock: Arc<dyn Clock>) -> Result<Box<dyn Transport>, TransportError> {
+    Ok(Box::new(transport::midi_ports::open(name, clock)?))
+}
+
+#[cfg(not(feature = "midir"))]
+fn midi_port(_name: &str, _clock: Arc<dyn Clock>) -> Result<Box<dyn Transport>, TransportError> {
+    Err(TransportError::Unsupported {
+        what: "MIDI library in this program; build it with the feature midir, or on Linux name the node below /dev/snd",
+    })
 }
 
 /// Whether a path is a HID device's node, by its name.

@@ -1,4 +1,4 @@
-//! How people name a line: a path, `tcp:HOST:PORT`, `usb:SERIAL`, `osc:PORT`, `sim:NAME`.
+//! How people name a line: a path, `tcp:HOST:PORT`, `usb:SERIAL`, `osc:PORT`, `midi:NAME`, `sim:NAME`.
 
 use super::osc::OscPlace;
 use super::{Transport, TransportError, ports, serial, tcp};
@@ -21,6 +21,8 @@ pub enum Address {
     Usb(String),
     /// A network controller, heard by UDP.
     Osc(OscPlace),
+    /// A MIDI port of the system's library, by the beginning of its name.
+    Midi(String),
     /// A simulated device on the embedded bench, which this crate does not have.
     Sim(String),
 }
@@ -53,6 +55,8 @@ impl FromStr for Address {
         }
         let (made, name): (fn(String) -> Self, &str) = if let Some(serial) = text.strip_prefix("usb:") {
             (Self::Usb, serial)
+        } else if let Some(name) = text.strip_prefix("midi:") {
+            (Self::Midi, name)
         } else if let Some(name) = text.strip_prefix("sim:") {
             (Self::Sim, name)
         } else if text.contains('/') {
@@ -76,13 +80,14 @@ impl fmt::Display for Address {
             Self::Tcp { host, port } => write!(f, "tcp:{host}:{port}"),
             Self::Usb(serial) => write!(f, "usb:{serial}"),
             Self::Osc(place) => write!(f, "osc:{place}"),
+            Self::Midi(name) => write!(f, "midi:{name}"),
             Self::Sim(name) => write!(f, "sim:{name}"),
         }
     }
 }
 
-/// Opens a line for bytes. `sim:` answers [`TransportError::NotFound`], and so does `osc:`, which is for input devices
-/// only ([`crate::discovery::open`]).
+/// Opens a line for bytes. `sim:` answers [`TransportError::NotFound`], and so do `osc:` and `midi:`, which are for input
+/// devices only ([`crate::discovery::open`]).
 pub fn open(address: &Address, baud: u32) -> Result<Box<dyn Transport>, TransportError> {
     match address {
         Address::Path(path) => Ok(Box::new(serial::open(path, baud)?)),
@@ -96,7 +101,7 @@ pub fn open(address: &Address, baud: u32) -> Result<Box<dyn Transport>, Transpor
             })?;
             Ok(Box::new(serial::open(&found.path, baud)?))
         }
-        Address::Osc(_) | Address::Sim(_) => Err(TransportError::NotFound {
+        Address::Osc(_) | Address::Midi(_) | Address::Sim(_) => Err(TransportError::NotFound {
             address: address.to_string(),
         }),
     }
@@ -126,6 +131,7 @@ mod tests {
                     on: None,
                 }),
             ),
+            ("midi:X-TOUCH MINI", Address::Midi("X-TOUCH MINI".to_owned())),
             ("sim:dial-box", Address::Sim("dial-box".to_owned())),
         ];
         for (text, want) in rows {
@@ -148,6 +154,7 @@ mod tests {
             "sim:",
             "osc:",
             "osc:0",
+            "midi:",
         ] {
             let error = text.parse::<Address>().unwrap_err().to_string();
             assert!(

@@ -2,6 +2,7 @@
 
 pub mod adapter;
 pub mod address;
+mod closed;
 mod descriptor;
 mod errands;
 mod error;
@@ -9,6 +10,8 @@ pub mod hid;
 mod intake;
 pub mod memory;
 pub mod merged;
+#[cfg(feature = "midir")]
+pub mod midi_ports;
 pub mod midi_raw;
 pub mod osc;
 pub mod ports;
@@ -21,6 +24,7 @@ mod usb;
 mod waiting;
 
 pub use address::{Address, open};
+pub(crate) use closed::Closed;
 pub use error::TransportError;
 pub use usb::read_usb_string;
 pub use waiting::{Awaited, LINES_MAX, wait_any};

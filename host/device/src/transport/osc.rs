@@ -4,9 +4,12 @@
 //! Answers go to whoever was heard last. Source: OSC 1.0, "OSC Packets"; hexler's TouchOSC manual (8000 to the host,
 //! 9000 back); `docs/protocols/osc.md`.
 
+mod held;
+
 use super::intake::{Intake, Reading, gone};
 use super::{Boundary, Transport, TransportError};
 use crate::clock::{Clock, Instant};
+use held::Held;
 use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -53,6 +56,16 @@ impl std::fmt::Display for OscPlace {
     }
 }
 
+/// When a packet is due, as the time of day since the beginning of 1970; none: now. Whoever opens the port knows the
+/// format.
+pub type Due = fn(&[u8]) -> Option<Duration>;
+
+/// A packet due later than this from now is from a machine whose clock is another: it is taken at once.
+const LATEST: Duration = Duration::from_secs(60);
+
+/// The shortest wait for a packet; the system counts in microseconds.
+const SHORTEST: Duration = Duration::from_micros(100);
+
 /// Who was heard last.
 type Peer = Arc<Mutex<Option<IpAddr>>>;
 
@@ -66,8 +79,8 @@ pub struct OscPort {
     send_port: u16,
 }
 
-/// Opens `place`; arrivals are noted by `clock`.
-pub fn open(place: OscPlace, clock: Arc<dyn Clock>) -> Result<OscPort, TransportError> {
+/// Opens `place`; arrivals are noted by `clock`. A packet that `due` says is for later arrives then.
+pub fn open(place: OscPlace, due: Due, clock: Arc<dyn Clock>) -> Result<OscPort, TransportError> {
     let address = format!("osc:{place}");
     let sort = |error: io::Error| match error.kind() {
         ErrorKind::AddrInUse => TransportError::Busy {
@@ -82,6 +95,9 @@ pub fn open(place: OscPlace, clock: Arc<dyn Clock>) -> Result<OscPort, Transport
         socket: socket.try_clone().map_err(sort)?,
         peer: Arc::clone(&peer),
         limit: None,
+        due,
+        clock: Arc::clone(&clock),
+        held: Held::default(),
     };
     let intake = Intake::spawn("osc", clock, Box::new(packets)).map_err(sort)?;
     Ok(OscPort {
@@ -97,10 +113,36 @@ struct Packets {
     socket: UdpSocket,
     peer: Peer,
     limit: Option<Duration>,
+    due: Due,
+    clock: Arc<dyn Clock>,
+    held: Held,
+}
+
+impl Packets {
+    /// Whether the packet is kept for later.
+    fn is_for_later(&mut self, packet: &[u8]) -> bool {
+        let Some((due, today)) = (self.due)(packet).zip(self.clock.time_of_day()) else {
+            return false;
+        };
+        let ahead = due.saturating_sub(today);
+        !ahead.is_zero() && ahead <= LATEST && self.held.keep(self.clock.now().after(ahead), packet)
+    }
 }
 
 impl Reading for Packets {
     fn read(&mut self, buffer: &mut [u8], limit: Duration) -> io::Result<usize> {
+        let now = self.clock.now();
+        if let Some(packet) = self.held.take(now) {
+            let count = packet.len().min(buffer.len());
+            buffer
+                .iter_mut()
+                .zip(&packet)
+                .for_each(|(place, byte)| *place = *byte);
+            return Ok(count);
+        }
+        // Not longer than until the next one is due; a limit of nothing is refused by the system.
+        let until_due = self.held.next().map(|due| due.since(now).max(SHORTEST));
+        let limit = until_due.map_or(limit, |due| due.min(limit));
         if self.limit != Some(limit) {
             self.socket.set_read_timeout(Some(limit))?;
             self.limit = Some(limit);
@@ -108,7 +150,10 @@ impl Reading for Packets {
         match self.socket.recv_from(buffer) {
             Ok((count, from)) => {
                 *self.peer.lock().unwrap_or_else(PoisonError::into_inner) = Some(from.ip());
-                Ok(count)
+                let later = buffer
+                    .get(..count)
+                    .is_some_and(|packet| self.is_for_later(packet));
+                Ok(if later { 0 } else { count })
             }
             // Nothing came; or the system has told that nobody takes our answers, which is nobody's end.
             Err(error)
@@ -199,9 +244,9 @@ mod tests {
             send: Some(answered),
             on: None,
         };
-        let mut port = open(place, clock.clone()).expect("it is free");
+        let mut port = open(place, at_once, clock.clone()).expect("it is free");
         assert!(matches!(
-            open(place, clock.clone()),
+            open(place, at_once, clock.clone()),
             Err(TransportError::Busy { .. })
         ));
         for packet in [&b"one"[..], b"three"] {
@@ -227,6 +272,53 @@ mod tests {
         assert_eq!(&buffer[..count], b"back");
     }
 
+    fn at_once(_packet: &[u8]) -> Option<Duration> {
+        None
+    }
+
+    /// A packet whose text is a time of day in milliseconds is due then.
+    fn in_text(packet: &[u8]) -> Option<Duration> {
+        let text = std::str::from_utf8(packet).ok()?;
+        text.parse().ok().map(Duration::from_millis)
+    }
+
+    #[test]
+    fn what_is_for_later_arrives_later_and_what_is_late_at_once() {
+        let clock = Arc::new(MonotonicClock::new());
+        let free = UdpSocket::bind("127.0.0.1:0").and_then(|s| s.local_addr());
+        let free = free.expect("a port");
+        let place = OscPlace {
+            listen: free.port(),
+            send: None,
+            on: None,
+        };
+        let mut port = open(place, in_text, clock.clone()).expect("it is free");
+        let controller = UdpSocket::bind("127.0.0.1:0").expect("a port");
+        let today = clock.time_of_day().expect("a time of day");
+        let at = |ms: u64| (today + Duration::from_millis(ms)).as_millis().to_string();
+        let sent = clock.now();
+        let packets = [at(400), at(200), "5".to_owned(), "now".to_owned(), at(3_600_000)];
+        for packet in &packets {
+            controller.send_to(packet.as_bytes(), free).expect("sent");
+        }
+        let until = sent.after(Duration::from_secs(5));
+        let mut heard = Vec::new();
+        while heard.len() < packets.len() && clock.now() < until {
+            port.wait(clock.as_ref(), until);
+            let mut buffer = [0; 64];
+            let count = port.read(&mut buffer).expect("open");
+            if count > 0 {
+                let text = String::from_utf8_lossy(&buffer[..count]).into_owned();
+                heard.push((text, port.arrived().expect("noted").since(sent)));
+            }
+        }
+        let order: Vec<_> = heard.iter().map(|(text, _)| text.clone()).collect();
+        // An hour ahead is a wrong clock.
+        assert_eq!(order, [2, 3, 4, 1, 0].map(|n| packets[n].clone()));
+        assert!(heard[3].1 >= Duration::from_millis(190), "{heard:?}");
+        assert!(heard[4].1 >= Duration::from_millis(390), "{heard:?}");
+    }
+
     #[test]
     fn only_this_machine_is_heard_unless_asked() {
         let clock = Arc::new(MonotonicClock::new());
@@ -237,7 +329,7 @@ mod tests {
                 send: None,
                 on,
             };
-            open(place, clock.clone()).expect("it is free")
+            open(place, at_once, clock.clone()).expect("it is free")
         };
         let bound = |port: &OscPort| port.socket.local_addr().expect("bound").ip();
         assert!(bound(&open_on(None)).is_loopback());

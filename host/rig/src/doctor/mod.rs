@@ -239,7 +239,7 @@ impl Doctor {
                     .find(|port| port.usb.as_ref().is_some_and(|usb| usb.serial == serial))?;
                 self.adapters.of_port(&found.path)
             }
-            Address::Tcp { .. } | Address::Osc(_) | Address::Sim(_) => None,
+            Address::Tcp { .. } | Address::Osc(_) | Address::Midi(_) | Address::Sim(_) => None,
         }
     }
 }

@@ -157,11 +157,13 @@ impl Inputs {
         }
     }
 
-    /// The profile's key; the second of its kind has a 2 behind it, and so on.
+    /// The profile's key; the second of its kind has a 2 behind it, and so on, apart from a digit before.
     fn free_name(&self, profile: &str, slot: u16) -> String {
         let free = |name: &String| self.seats.iter().all(|seat| seat.spec.name != *name);
         let own = if slot < 2 {
             profile.to_owned()
+        } else if profile.ends_with(|c: char| c.is_ascii_digit()) {
+            format!("{profile}-{slot}")
         } else {
             format!("{profile}{slot}")
         };
@@ -191,7 +193,7 @@ impl Inputs {
                 other.kind == taken.kind && (same(other, slot) || same(other, taken.slot))
             });
             if concerns {
-                // The next listing says which of them is where now.
+                // The next listing says which of them is where now. What was held on it is let go with the next poll.
                 seat.close();
             }
         }
@@ -218,9 +220,11 @@ impl Seat {
         taken.rule = rule;
     }
 
-    /// Lets go of the line.
+    /// Lets go of the line. The device stays to tell what was held.
     fn close(&mut self) {
-        self.device = None;
+        if let Some(device) = &mut self.device {
+            device.close();
+        }
         self.open = false;
         self.health = DeviceHealth::Lost;
         self.spec.address.clear();

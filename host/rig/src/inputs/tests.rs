@@ -8,6 +8,8 @@ struct Sockets {
     found: Vec<Found>,
     lines: Vec<(String, Box<dyn Transport>)>,
     opened: Vec<String>,
+    /// So many attempts to open find that somebody has the line.
+    busy: usize,
 }
 
 impl Sockets {
@@ -41,6 +43,12 @@ impl Ports for Sockets {
     }
     fn open(&mut self, address: &str, _baud: u32) -> Result<Box<dyn Transport>, TransportError> {
         self.opened.push(address.to_owned());
+        if self.busy > 0 {
+            self.busy -= 1;
+            return Err(TransportError::Busy {
+                address: address.to_owned(),
+            });
+        }
         let place = self.lines.iter().position(|(at, _)| at == address);
         match place {
             Some(place) => Ok(self.lines.remove(place).1),
@@ -48,6 +56,9 @@ impl Ports for Sockets {
                 address: address.to_owned(),
             }),
         }
+    }
+    fn pin(&mut self, _address: &str, _slot: Option<u16>) -> Result<(), String> {
+        Ok(())
     }
 }
 
@@ -242,4 +253,79 @@ fn what_describes_itself_is_taken_without_a_profile_and_what_says_nothing_is_not
     let said = desk.heard.iter().map(|heard| &heard.event.what);
     let moved = said.filter(|what| matches!(what, InputEvent::Axis { value: 200, .. }));
     assert_eq!(moved.count(), 1);
+}
+
+fn named(address: &str) -> InputSpec {
+    InputSpec {
+        name: "box".to_owned(),
+        profile: "sgi-dialbox".to_owned(),
+        address: address.to_owned(),
+    }
+}
+
+/// The thread that read it has not noticed yet that nobody wants it any more.
+#[test]
+fn a_line_just_let_go_of_is_waited_for_in_silence_and_one_that_is_held_is_said() {
+    let mut desk = Desk::new(vec![named("osc:8000")]);
+    let mut far = desk.sockets.plug("osc:8000", 1);
+    desk.sockets.busy = 4;
+    desk.run(300);
+    answers(&mut far);
+    desk.run(50);
+    assert_eq!(desk.said, [Change::Came("box".to_owned())]);
+    let mut desk = Desk::new(vec![named("osc:8000")]);
+    desk.sockets.busy = usize::MAX;
+    desk.run(400);
+    assert_eq!(desk.said, []);
+    desk.run(400);
+    let held = DeviceHealth::Held {
+        driver: "another program".to_owned(),
+    };
+    assert_eq!(desk.told(), [("box".to_owned(), held)]);
+    assert!(matches!(desk.said[..], [Change::Absent(..)]), "{:?}", desk.said);
+}
+
+/// Who is given another place lets go of everything first, and goes on with the line it is given then.
+#[test]
+fn what_is_held_when_a_device_is_given_another_place_is_let_go() {
+    let mut desk = Desk::new(Vec::new());
+    let mut far = desk.sockets.plug("/dev/ttyUSB0", 1);
+    desk.run(500);
+    answers(&mut far);
+    desk.run(100);
+    far.write(&[0xC3]).expect("the host is there");
+    desk.run(100);
+    let buttons = |heard: &[Heard]| -> Vec<InputEvent> {
+        let button = |it: &&Heard| matches!(it.event.what, InputEvent::Button { .. });
+        heard.iter().filter(button).map(|it| it.event.what).collect()
+    };
+    let [InputEvent::Button { control, down: true }] = buttons(&desk.heard)[..] else {
+        panic!("{:?}", buttons(&desk.heard));
+    };
+    let edge = |down| InputEvent::Button { control, down };
+    let Desk { inputs, sockets, .. } = &mut desk;
+    inputs.pin("sgi-dialbox", Some(2), sockets).expect("it is known");
+    desk.run(20);
+    assert_eq!(buttons(&desk.heard), [edge(true), edge(false)]);
+    drop(far);
+    desk.sockets.unplug("/dev/ttyUSB0");
+    let mut far = desk.sockets.plug("/dev/ttyUSB1", 2);
+    desk.run(1000);
+    answers(&mut far);
+    desk.run(100);
+    assert_eq!(buttons(&desk.heard).len(), 2);
+}
+
+#[test]
+fn a_number_behind_a_name_is_not_read_as_part_of_it() {
+    let desk = Desk::new(Vec::new());
+    for (kind, slot, name) in [
+        ("knob", 1, "knob"),
+        ("knob", 2, "knob2"),
+        ("nanokontrol2", 1, "nanokontrol2"),
+        ("nanokontrol2", 2, "nanokontrol2-2"),
+        ("nanokontrol2", 12, "nanokontrol2-12"),
+    ] {
+        assert_eq!(desk.inputs.free_name(kind, slot), name);
+    }
 }
