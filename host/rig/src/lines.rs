@@ -4,7 +4,7 @@
 //! address. Must not know what is asked: that is in the profiles.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use device::clock::Clock;
 use device::discovery::{self, Access, Places, Strings};
@@ -131,7 +131,7 @@ fn read(file: &Path) -> Result<BTreeMap<String, String>, String> {
     }
 }
 
-fn write(file: &PathBuf, lines: BTreeMap<String, String>) -> std::io::Result<()> {
+fn write(file: &Path, lines: BTreeMap<String, String>) -> std::io::Result<()> {
     let contents = File {
         version: VERSION,
         lines,

@@ -61,7 +61,7 @@ impl std::fmt::Display for OscPlace {
 pub type Due = fn(&[u8]) -> Option<Duration>;
 
 /// A packet due later than this from now is from a machine whose clock is another: it is taken at once.
-const LATEST: Duration = Duration::from_secs(60);
+const LATEST: Duration = Duration::from_mins(1);
 
 /// The shortest wait for a packet; the system counts in microseconds.
 const SHORTEST: Duration = Duration::from_micros(100);

@@ -30,7 +30,7 @@ impl Told {
         }
         let mut told = Vec::new();
         self.controls.show(&Panel::default(), 1.0, &mut |_, feedback| {
-            told.push(feedback.clone())
+            told.push(feedback.clone());
         });
         told
     }
@@ -50,9 +50,9 @@ fn a_lamp_has_the_colour_it_is_told() {
     };
     let on = (Inlet::Lamp(1), 1, Value::Boolean(true));
     assert_eq!(told.after(&[on]), [lamp(255, None)]);
-    let green = (Inlet::Colour(1), 1, colour(0.0, 1.0, 0.0));
-    assert_eq!(told.after(&[green.clone()]), [lamp(255, Some([0, 255, 0]))]);
-    assert_eq!(told.after(&[green]), []);
+    let green = || (Inlet::Colour(1), 1, colour(0.0, 1.0, 0.0));
+    assert_eq!(told.after(&[green()]), [lamp(255, Some([0, 255, 0]))]);
+    assert_eq!(told.after(&[green()]), []);
     let half = (Inlet::Lamp(1), 1, Value::Real(0.5));
     assert_eq!(told.after(&[half]), [lamp(128, Some([0, 255, 0]))]);
 }
@@ -90,10 +90,10 @@ fn clicks_are_felt_each_time_and_only_then() {
         clicks,
         apart_ms: 120,
     };
-    let three = (Inlet::Haptic, 1, Value::Integer(3));
-    assert_eq!(told.after(&[three.clone()]), [clicks(3)]);
+    let three = || (Inlet::Haptic, 1, Value::Integer(3));
+    assert_eq!(told.after(&[three()]), [clicks(3)]);
     assert_eq!(told.after(&[]), []);
-    assert_eq!(told.after(&[three]), [clicks(3)]);
+    assert_eq!(told.after(&[three()]), [clicks(3)]);
     assert_eq!(
         told.after(&[(Inlet::Haptic, 1, Value::Boolean(true))]),
         [clicks(1)]

@@ -158,7 +158,7 @@ impl Inputs {
     }
 
     /// The profile's key; the second of its kind has a 2 behind it, and so on, apart from a digit before.
-    fn free_name(&self, profile: &str, slot: u16) -> String {
+    pub(super) fn free_name(&self, profile: &str, slot: u16) -> String {
         let free = |name: &String| self.seats.iter().all(|seat| seat.spec.name != *name);
         let own = if slot < 2 {
             profile.to_owned()

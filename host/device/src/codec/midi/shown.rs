@@ -265,7 +265,7 @@ impl Shown {
                 address.write(place(13.0).unwrap_or(0), &mut self.messages[1].wanted);
             }
             RingCoding::Plain | RingCoding::Meter => {
-                self.put(share.map_or(0, |share| (share * 127.0).round() as u8), &[])
+                self.put(share.map_or(0, |share| (share * 127.0).round() as u8), &[]);
             }
         }
     }

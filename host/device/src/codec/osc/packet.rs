@@ -24,7 +24,7 @@ pub fn due(packet: &[u8]) -> Option<Duration> {
     }
     // 32 bits of seconds, 32 of their fractions.
     let seconds = (tag >> 32).checked_sub(SECONDS_TO_1970)?;
-    let nanos = (tag & 0xFFFF_FFFF) * 1_000_000_000 >> 32;
+    let nanos = ((tag & 0xFFFF_FFFF) * 1_000_000_000) >> 32;
     Some(Duration::new(seconds, nanos as u32))
 }
 
@@ -54,7 +54,7 @@ mod tests {
         // The first of January 2000, and a quarter of a second more: 3155673600 seconds of NTP (RFC 5905).
         assert_eq!(
             due(&bundle(3_155_673_600 << 32)),
-            Some(Duration::from_secs(946_684_800))
+            Some(Duration::from_hours(262_968))
         );
         let quarter = due(&bundle(3_155_673_600 << 32 | 1 << 30));
         assert_eq!(quarter, Some(Duration::from_millis(946_684_800_250)));

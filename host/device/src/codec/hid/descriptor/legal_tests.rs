@@ -411,7 +411,9 @@ proptest! {
         wide in any::<bool>(),
     ) {
         let mut writer = Writer { ids, wide, ..Writer::default() };
-        ops.iter().for_each(|op| writer.take(op));
+        for op in &ops {
+            writer.take(op);
+        }
         while writer.open.pop().is_some() {
             writer.bytes.push(0xC0);
         }

@@ -223,7 +223,7 @@ fn nth_usage(usages: &[UsageRange], mut n: u32) -> Usage {
         if let Some(usage) = range.nth(n) {
             return usage;
         }
-        n -= range.count();
+        n = n.saturating_sub(range.count());
         last = Usage::new(range.page, range.ids[1]);
     }
     last

@@ -155,6 +155,8 @@ impl Locals {
                 to: to_id.into(),
             });
         }
+        // A range stays on its page.
+        let to_id = to_id.min(from.id | 0xFFFF);
         match self.delimiter {
             Delimiter::Served => return Ok(()),
             Delimiter::Open => self.delimiter = Delimiter::Served,

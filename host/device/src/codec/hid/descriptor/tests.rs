@@ -47,7 +47,7 @@ fn a_pen_is_taken_apart() {
 #[test]
 fn usages_come_as_ranges_long_words_and_choices() {
     type Row<'a> = (&'a [u8], &'a [(u16, u16)]);
-    let rows: [Row<'_>; 5] = [
+    let rows: [Row<'_>; 7] = [
         (&[0x05, 0x09, 0x19, 0x01, 0x29, 0x03], &[(9, 1), (9, 2), (9, 3)]),
         // Too few: the last one is for all that are left.
         (
@@ -71,6 +71,15 @@ fn usages_come_as_ranges_long_words_and_choices() {
                 0x1B, 0x01, 0x00, 0x09, 0x00, 0x29, 0x02, 0x0B, 0x05, 0x00, 0x09, 0x00,
             ],
             &[(9, 1), (9, 2), (9, 5)],
+        ),
+        // A maximum on another page ends with the minimum's.
+        (
+            &[0x05, 0x09, 0x19, 0x01, 0x2B, 0x00, 0x00, 0x00, 0x05],
+            &[(9, 1), (9, 2), (9, 3)],
+        ),
+        (
+            &[0x1B, 0xFE, 0xFF, 0x09, 0x00, 0x2B, 0x01, 0x00, 0x0A, 0x00],
+            &[(9, 0xFFFE), (9, 0xFFFF), (9, 0xFFFF)],
         ),
     ];
     for (locals, want) in rows {
