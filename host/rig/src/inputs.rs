@@ -73,6 +73,8 @@ pub(crate) struct Inputs {
     profiles: Arc<Profiles>,
     /// When what is plugged in is looked at again.
     list_at: Instant,
+    /// After so long.
+    list_again: Duration,
     /// Addresses of devices whose own description says nothing.
     refused: BTreeSet<String>,
 }
@@ -137,6 +139,7 @@ impl Inputs {
             heard: Vec::new(),
             profiles: Arc::clone(profiles),
             list_at: Instant::ZERO,
+            list_again: plugging::LIST_AGAIN,
             refused: BTreeSet::new(),
         })
     }
@@ -164,6 +167,7 @@ impl Inputs {
 
     /// Devices that are away are looked for in every step: whoever has the lines knows when each was opened.
     pub(crate) fn look_in_every_step(&mut self) {
+        self.list_again = Duration::ZERO;
         for seat in &mut self.seats {
             seat.eager = true;
         }

@@ -87,6 +87,8 @@ fn recognise(
     match found.plug {
         Some(plug) => Ok(plug.profile),
         None if found.matches.iter().any(|key| key == ON_A_LINE) => Ok(Some(ON_A_LINE.to_owned())),
+        // What is simulated is what it was made as.
+        None if address.starts_with("sim:") && found.matches.len() == 1 => Ok(found.matches.first().cloned()),
         None => Err(ListenError::Unknown {
             address: address.to_owned(),
             why: found.why.unwrap_or_else(|| "nothing says what it is".to_owned()),

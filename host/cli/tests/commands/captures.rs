@@ -90,7 +90,7 @@ fn exchanges_are_played_or_refused_by_line() {
             call(
                 "replay good.txt --json",
                 0,
-                &[r#"{"control":3,"delta":64,"event":"dial""#],
+                &[r#""event":"dial","control":3,"delta":64"#],
                 ANY,
             ),
             call(
@@ -122,7 +122,8 @@ fn exchanges_are_played_or_refused_by_line() {
 
 #[test]
 fn recordings_are_decoded_as_far_as_they_go() {
-    let torn = b"profile: sgi-dialbox\ndevice < 20 @ 0.1\ndevice < 33 00 40 @ 0.2\ndevice < 33 0";
+    let torn =
+        b"profile: sgi-dialbox\ndevice < 20 @ 0.1\nevent started\ndevice < 33 00 40 @ 0.2\ndevice < 33 0";
     check(
         &[
             ("good.txt", GOOD),
@@ -135,9 +136,8 @@ fn recordings_are_decoded_as_far_as_they_go() {
                 "decode good.txt",
                 0,
                 &[
-                    r#"{"control":3,"delta":64,"event":"dial","t":0.238}"#,
-                    r#""event":"totals""#,
-                    r#""rejected":0,"reports":"#,
+                    r#"{"t":0.238,"event":"dial","control":3,"delta":64}"#,
+                    r#""event":"totals","reports":2,"events":1,"unknown":0,"rejected":0"#,
                 ],
                 &[],
             ),
@@ -146,11 +146,11 @@ fn recordings_are_decoded_as_far_as_they_go() {
                 "decode torn.txt",
                 0,
                 &[
-                    r#""delta":64,"event":"dial""#,
+                    r#""event":"dial","control":3,"delta":64"#,
                     r#""event":"totals""#,
                     r#""rejected":1"#,
                 ],
-                &["torn.txt:4:13: warning:"],
+                &["torn.txt:5:13: warning:"],
             ),
             call("decode empty.txt", 1, &[], &["expected hid-recorder text"]),
             call("decode nosuch.txt", 1, &[], &["nosuch.txt"]),
@@ -200,7 +200,7 @@ fn recordings_of_shows_are_refused_before_anything_is_performed() {
                 "record shows/salute --device sim:dial-box --take wave --out file/x",
                 1,
                 &[],
-                &["file/x: cannot write into"],
+                &["file/x:1:1: error: cannot write into it"],
             ),
             call(
                 "record shows/salute --device sim:dial-box=nonsense --take wave --out x",

@@ -246,6 +246,11 @@ impl Control {
         self.pickup.hear(share, self.moment(at)).map(Value::Real)
     }
 
+    /// A hand is on it, though it is where it was.
+    pub(crate) fn is_held(&mut self, at: At) {
+        self.heard_secs = Some(at.secs);
+    }
+
     /// What springs back goes as it is pushed, unless it goes to a value that is known: then as any other.
     fn deflected(&mut self, raw: f64, at: At) -> Option<Value> {
         let deflection = with_dead_zone(raw, self.zone);

@@ -167,7 +167,7 @@ impl Instance {
             }
             InputEvent::Axis { control, value } => {
                 let touched = self.moves(ControlClass::Axis, control, emit, |it| it.stands(value, at));
-                self.shows_by_itself(control);
+                self.shows_by_itself(control, at);
                 touched
             }
             InputEvent::AxisTouched { control, down } => {
@@ -211,7 +211,7 @@ impl Instance {
     }
 
     /// A fader that a hand has moved is where it is: its motor has nothing to do.
-    fn shows_by_itself(&mut self, axis: u16) {
+    fn shows_by_itself(&mut self, axis: u16, at: At) {
         let Some(&place) = self
             .classes
             .get(&ControlClass::Axis)
@@ -219,11 +219,18 @@ impl Instance {
         else {
             return;
         };
-        let Some(share) = self.controls.get(place).and_then(|it| it.pickup.place()) else {
+        let Some(control) = self.controls.get_mut(place) else {
+            return;
+        };
+        let Some(share) = control.pickup.place() else {
             return;
         };
         for output in self.outputs.iter_mut().filter(|it| it.control == Some(place)) {
             output.follows_hand(share);
+            if output.kind == OutputKind::Motor {
+                // Its motor may have taken it elsewhere meanwhile: that it is here again is a hand's doing.
+                control.is_held(at);
+            }
         }
     }
 

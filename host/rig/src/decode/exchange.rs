@@ -1,6 +1,7 @@
 //! Exchange files: of what both sides said, what the device did.
 //!
-//! Only the reports are taken here; playing both sides against one another is another matter.
+//! The reports are taken, and the conversation as a whole where the file has it from its beginning: what reports mean may
+//! depend on what was asked before. Holding both sides against one another is another matter.
 
 use device::codec::Answer;
 use device::exchange::{self, What};
@@ -16,9 +17,13 @@ pub(super) fn read(text: &str) -> Option<Recording> {
     if !exchange.records.iter().any(|record| told(&record.what)) {
         return None;
     }
+    // Where only the device has a word, nobody knows how it began.
+    let has_host = |what: &What| matches!(what, What::Host(_) | What::Answer(_) | What::Event(_));
+    let is_whole = !exchange.head.reporting && exchange.records.iter().any(|record| has_host(&record.what));
     let mut device = RecordedDevice {
         name: exchange.head.profile.clone().unwrap_or_default(),
-        profile: exchange.head.profile,
+        profile: exchange.head.profile.clone(),
+        conversation: is_whole.then(|| exchange.clone()),
         ..RecordedDevice::default()
     };
     let mut recording = Recording::default();

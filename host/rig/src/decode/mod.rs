@@ -11,12 +11,13 @@ mod recording;
 pub use profile::with_file;
 pub use recording::{Flaw, RecordedDevice, RecordedReport, Recording};
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
 use device::clock::Instant;
 use device::codec::hid::HidCodec;
-use device::codec::{self, Codec, Counters, InputEvent, Outgoing, Stand};
+use device::codec::{self, Codec, Counters, InputEvent, Outgoing, Stamped, Stand};
+use device::exchange::play;
 use device_profiles::{InputProfile, Profiles};
 
 use crate::telling::{Buttons, Teller, Told};
@@ -57,6 +58,8 @@ struct Seat {
     teller: Teller,
     /// When its last report came.
     heard_at: Option<Duration>,
+    /// What came of the whole conversation, to be told as its reports are taken; and how many of these are left.
+    played: Option<(VecDeque<Stamped<InputEvent>>, usize)>,
 }
 
 /// How often a silent device is looked at, and how long: no codec has a longer limit.
@@ -92,7 +95,8 @@ impl Decoding {
         let mut seats = Vec::new();
         for (number, device) in recording.devices.iter().enumerate() {
             let heard = recording.reports.iter().any(|report| report.device == number);
-            let seat = Seat::new(device, profile, profiles);
+            let count = recording.reports.iter().filter(|report| report.device == number);
+            let seat = Seat::new(device, profile, profiles).map(|seat| seat.converse(device, count.count()));
             // A device that sent nothing may be anything.
             seats.push(if heard { Some(seat?) } else { seat.ok() });
         }
@@ -105,6 +109,10 @@ impl Decoding {
             self.unknown += 1;
             return;
         };
+        if seat.played.is_some() {
+            seat.tell_played(report.at, told);
+            return;
+        }
         let now = Instant::ZERO.after(report.at);
         let at_secs = report.at.as_secs_f64();
         // Time limits that ran out before this report, then the report, then what follows from it.
@@ -149,10 +157,14 @@ impl Seat {
         };
         let named = device.profile.as_ref().map(|key| profiles.input(key)).transpose();
         let named = named.map_err(|error| fail(error.to_string()))?;
+        let stand = if device.conversation.is_some() {
+            Stand::Unasked
+        } else {
+            Stand::Reporting
+        };
         let mut seat = match (profile.or(named), &device.descriptor) {
             (Some(profile), _) => {
-                let codec =
-                    codec::of_profile(profile, Stand::Reporting).map_err(|error| fail(error.to_string()))?;
+                let codec = codec::of_profile(profile, stand).map_err(|error| fail(error.to_string()))?;
                 let buttons = if codec.surface().is_some() {
                     Buttons::Keys
                 } else {
@@ -162,6 +174,7 @@ impl Seat {
                     codec,
                     teller: Teller::new(buttons),
                     heard_at: None,
+                    played: None,
                 }
             }
             (None, Some(descriptor)) => {
@@ -175,6 +188,7 @@ impl Seat {
                     codec: Box::new(codec),
                     teller: Teller::new(buttons),
                     heard_at: None,
+                    played: None,
                 }
             }
             (None, None) => {
@@ -186,6 +200,28 @@ impl Seat {
         let presses = seat.codec.surface().is_none_or(|area| area.pressure_max > 0);
         seat.teller.leave_pressure_out(!presses);
         Ok(seat)
+    }
+
+    /// Plays the conversation, if there is one.
+    fn converse(mut self, device: &RecordedDevice, reports: usize) -> Self {
+        if let Some(exchange) = &device.conversation {
+            let played = play(exchange, self.codec.as_mut());
+            self.played = Some((played.events.into(), reports));
+        }
+        self
+    }
+
+    /// Tells what had come by the time of a report; with the last one all of it.
+    fn tell_played(&mut self, at: Duration, told: &mut dyn FnMut(f64, Told)) {
+        let Some((mut events, left)) = self.played.take() else {
+            return;
+        };
+        let left = left.saturating_sub(1);
+        let now = Instant::ZERO.after(at);
+        while let Some(event) = events.pop_front_if(|event| left == 0 || event.at <= now) {
+            self.tell(event.at.since(Instant::ZERO).as_secs_f64(), &[event.what], told);
+        }
+        self.played = Some((events, left));
     }
 
     /// Lets the time until the next report pass.

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use device::exchange::Exchange;
+
 /// Reports of one or several devices, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
@@ -14,7 +16,7 @@ pub struct Recording {
 }
 
 /// One device, or one interface of one.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedDevice {
     /// What it calls itself, or where it was.
     pub name: String,
@@ -24,6 +26,8 @@ pub struct RecordedDevice {
     pub ids: Option<[u16; 2]>,
     /// The key of its profile, where the recording names one.
     pub profile: Option<String>,
+    /// The conversation with it from its beginning, where the recording has both sides.
+    pub conversation: Option<Exchange>,
 }
 
 /// One report.

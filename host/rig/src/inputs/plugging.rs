@@ -10,7 +10,7 @@ use crate::controls::view::DeviceHealth;
 use crate::ports::{Found, Plug, Ports};
 
 /// Between two listings. With the lookout's own pause a device is taken within a second.
-const LIST_AGAIN: Duration = Duration::from_millis(400);
+pub(super) const LIST_AGAIN: Duration = Duration::from_millis(400);
 /// So long a node's rights may take to be set after the node is there; before that nobody is told of them.
 const SETTLES_IN: Duration = Duration::from_secs(2);
 /// Between two attempts to open in that time.
@@ -47,7 +47,7 @@ impl Inputs {
         if now < self.list_at {
             return;
         }
-        self.list_at = now.after(LIST_AGAIN);
+        self.list_at = now.after(self.list_again);
         let found = ports.list();
         for seat in &mut self.seats {
             let address = &seat.spec.address;

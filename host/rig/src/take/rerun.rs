@@ -18,7 +18,7 @@ use super::keys::Keys;
 use super::{Heard, Reel, Take};
 use crate::document::Show;
 use crate::inputs::InputSpec;
-use crate::ports::{Found, Ports};
+use crate::ports::{Found, Plug, Ports};
 use crate::rig::{Rig, RigOptions};
 
 /// After a line was opened the devices are looked at this often for a while: questions must not be asked later than
@@ -49,6 +49,9 @@ impl Rerun {
     /// Nothing is heard yet. The network is the show's.
     pub(crate) fn new(take: Arc<Take>, show: &Show, profiles: &Arc<Profiles>) -> Result<Self, String> {
         let clock = VirtualClock::new();
+        // What described itself has no profile: it is found and opened as it was.
+        let described = |heard: &Heard| profiles.input(&heard.profile).is_err();
+        let specs = take.devices.iter().filter(|(_, heard)| !described(heard));
         let spec = |(name, heard): (&String, &Heard)| InputSpec {
             name: name.clone(),
             profile: heard.profile.clone(),
@@ -59,11 +62,13 @@ impl Rerun {
             show: show.with_clip_chosen(&take.start.clip),
             folder: None,
             profiles: Arc::clone(profiles),
-            inputs: take.devices.iter().map(spec).collect(),
+            inputs: specs.map(spec).collect(),
             puppet: None,
             recorder: None,
         };
-        let ports = TakePorts::new(&take, &clock);
+        let found = take.devices.iter().filter(|(_, heard)| described(heard));
+        let found = found.map(|(name, _)| name.clone()).collect();
+        let ports = TakePorts::new(&take, &clock, found);
         let mut rig =
             Rig::new(Arc::new(clock.clone()), Box::new(ports), options).map_err(|error| error.to_string())?;
         rig.look_in_every_step();
@@ -178,10 +183,12 @@ struct Line {
 struct TakePorts {
     clock: VirtualClock,
     lines: Arc<Mutex<Lines>>,
+    /// Devices that nobody names.
+    found: Vec<String>,
 }
 
 impl TakePorts {
-    fn new(take: &Take, clock: &VirtualClock) -> Self {
+    fn new(take: &Take, clock: &VirtualClock, found: Vec<String>) -> Self {
         let lines = take
             .devices
             .iter()
@@ -189,6 +196,7 @@ impl TakePorts {
         Self {
             clock: clock.clone(),
             lines: Arc::new(Mutex::new(lines.collect())),
+            found,
         }
     }
 }
@@ -216,8 +224,25 @@ fn lines_of(heard: &Heard) -> VecDeque<Line> {
 }
 
 impl Ports for TakePorts {
+    /// Devices that are there and not opened yet.
     fn list(&mut self) -> Vec<Found> {
-        Vec::new()
+        let now = self.clock.now().since(Instant::ZERO);
+        let lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
+        let waits = |name: &&String| {
+            let next = lines.get(*name).and_then(VecDeque::front);
+            next.is_some_and(|line| line.opened <= now)
+        };
+        let found = |name: &String| Found {
+            address: name.clone(),
+            plug: Some(Plug {
+                name: name.clone(),
+                profile: None,
+                slot: 1,
+                baud: 0,
+            }),
+            ..Found::default()
+        };
+        self.found.iter().filter(waits).map(found).collect()
     }
 
     fn open(&mut self, address: &str, _baud: u32) -> Result<Box<dyn Transport>, TransportError> {

@@ -221,6 +221,10 @@ impl Tapes {
             opened: tape.opened,
             ..Heard::default()
         };
+        if let Some(descriptor) = &tape.descriptor {
+            // It was asked for when the device was first there, perhaps on an earlier line.
+            heard.before.put(tape.opened, What::Answer(descriptor.clone()));
+        }
         let (mut latest, first) = (Duration::ZERO, tape.first.next());
         for (reel, from) in [(&tape.first, from), (&tape.later, from.saturating_sub(first))] {
             reel.split_onto(from, &mut latest, [&mut heard.before, &mut heard.during]);
