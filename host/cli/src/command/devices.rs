@@ -71,6 +71,9 @@ struct Record<'a> {
     held_by: Option<&'a str>,
 }
 
+/// So many profiles are named in one cell.
+const NAMED_MAX: usize = 3;
+
 pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
     if args.install_rules {
         return install::run(args.rules_file.as_deref(), args.modprobe_file.as_deref(), console);
@@ -102,7 +105,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Result<Exit, Failure> {
         table.row(vec![
             port.address.clone(),
             port.description.clone(),
-            port.matches.join(", "),
+            fitting(port),
             allowed.to_owned(),
         ]);
     }
@@ -132,6 +135,15 @@ fn ask(console: &Console) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// The profiles that fit. A line that does not say what hangs on it fits all of its kind, which would fill the screen:
+/// they are counted, and `--json` names them.
+fn fitting(port: &Found) -> String {
+    match port.matches.as_slice() {
+        few if few.len() <= NAMED_MAX => few.join(", "),
+        many => format!("any of {}", many.len()),
+    }
 }
 
 /// Why nothing is taken, and who is in the way.
@@ -218,7 +230,7 @@ fn tell(console: &Console, change: Option<&str>, port: &Found) -> Result<(), Fai
         port.description
     );
     if !port.matches.is_empty() {
-        line = format!("{line}: {}", port.matches.join(", "));
+        line = format!("{line}: {}", fitting(port));
     }
     for note in remedy.into_iter().chain(notes(port)) {
         line = format!("{line}; {note}");
