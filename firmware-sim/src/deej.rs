@@ -5,11 +5,9 @@
 //! boards; one that does not restart is joined in the middle of a line.
 //! Source: `docs/protocols/deej.md` (omriharel/deej at 9c0307b9, `arduino/` and `pkg/deej/serial.go`).
 
-use crate::firmware::Firmware;
-use crate::hands::{Hands, Schedule, Touch, noise};
-use crate::line::{Line, shortened};
-use crate::script::{Device, Script};
-use crate::serial_kinds::SerialDevice;
+use crate::hands::Touch;
+use crate::script::Device;
+use crate::serial::{Inside, SerialChassis, Wire};
 use crate::travel::Travel;
 use crate::uart::Parity;
 use device_profiles::{ControlClass, InputProfile, Quirk};
@@ -67,67 +65,42 @@ impl From<&InputProfile> for Options {
 }
 
 /// The box, its line, and the hands on it.
+pub type Deej = SerialChassis<Board>;
+
+/// The board.
 #[derive(Clone, Debug)]
-pub struct Deej {
+pub struct Board {
     options: Options,
-    line: Line,
-    reached_ns: u64,
     next_loop_ns: u64,
     pots: Vec<Travel>,
     chance: fastrand::Rng,
-    schedule: Schedule,
 }
 
 impl Deej {
     /// A box that has been on for a while, every pot at its beginning; it is talking already.
     pub fn new(options: Options) -> Self {
-        Self {
-            line: Line::new(BAUD, options.drift_ppm),
-            reached_ns: 0,
+        let board = Board {
             next_loop_ns: 0,
             pots: vec![Travel::default(); usize::from(options.pots)],
             chance: fastrand::Rng::with_seed(options.seed),
-            schedule: Schedule::default(),
             options,
-        }
+        };
+        Self::around(board, BAUD, Parity::None, options.drift_ppm)
     }
+}
 
-    fn catch_up(&mut self, now_us: u64) -> u64 {
-        let now_ns = (now_us * 1000).max(self.reached_ns);
-        self.advance(now_ns);
-        now_ns
-    }
+impl Inside for Board {
+    /// The sketch never looks at what the host says.
+    fn hear(&mut self, _wire: &mut Wire, _byte: u8) {}
 
-    fn advance(&mut self, to_ns: u64) {
-        loop {
-            let events = [
-                self.line.next_arrival_ns(),
-                self.schedule.next_ns(),
-                Some(self.next_loop_ns),
-            ];
-            let Some(at_ns) = events.into_iter().flatten().min().filter(|&at| at <= to_ns) else {
-                break;
-            };
-            self.reached_ns = self.reached_ns.max(at_ns);
-            // The sketch never looks at what the host says.
-            if self.line.arrival(self.reached_ns).is_some() {
-                continue;
-            }
-            if self.schedule.next_ns().is_some_and(|due| due <= self.reached_ns) {
-                if let Some(touch) = self.schedule.pop() {
-                    self.touch_now(&touch);
-                }
-            } else {
-                self.turn_round();
-            }
-        }
-        self.reached_ns = self.reached_ns.max(to_ns);
+    fn next_ns(&self, _wire: &Wire) -> Option<u64> {
+        Some(self.next_loop_ns)
     }
 
     /// Once round the sketch's loop.
-    fn turn_round(&mut self) {
-        let at_ns = self.reached_ns;
-        self.schedule.begin(at_ns);
+    fn happen(&mut self, wire: &mut Wire) {
+        let at_ns = wire.now_ns();
+        wire.begin_script();
         let mut text = String::with_capacity(5 * self.pots.len() + 2);
         for pot in 0..self.pots.len() {
             if pot > 0 {
@@ -136,97 +109,32 @@ impl Deej {
             text.push_str(&self.reading(pot, at_ns).to_string());
         }
         text.push_str("\r\n");
-        self.line.device_sends(at_ns, text.as_bytes());
+        wire.say(text.as_bytes());
         // Printing returns when what is left fits into the buffer.
-        let kept_ns = BUFFER_BYTES * self.line.device_byte_ns();
-        let printed_ns = self.line.device_free_ns().saturating_sub(kept_ns).max(at_ns);
-        self.next_loop_ns = printed_ns + shortened(PAUSE_NS, self.options.drift_ppm);
+        let kept_ns = BUFFER_BYTES * wire.byte_ns();
+        let printed_ns = wire.free_ns().saturating_sub(kept_ns).max(at_ns);
+        self.next_loop_ns = printed_ns + wire.span_ns(PAUSE_NS);
     }
 
-    fn reading(&mut self, pot: usize, at_ns: u64) -> u16 {
-        let share = self.pots[pot].at(at_ns);
-        let share = if self.options.inverted { 1.0 - share } else { share };
-        let jitter = i32::from(self.options.jitter_counts);
-        let off = f64::from(self.chance.i32(-jitter..=jitter));
-        (share * COUNTS_MAX + off).round().clamp(0.0, COUNTS_MAX) as u16
-    }
-
-    fn restart(&mut self) {
-        self.line.device_stops(self.reached_ns);
-        self.next_loop_ns = self.reached_ns + shortened(BOOT_NS, self.options.drift_ppm);
-    }
-
-    fn touch_now(&mut self, touch: &Touch) -> bool {
-        match *touch {
-            Touch::Axis { control, to, over_us } => {
-                let Some(pot) = self.pots.get_mut(usize::from(control)) else {
-                    return false;
-                };
-                pot.go(self.reached_ns, to, over_us * 1000);
-            }
-            Touch::PowerCycle => self.restart(),
-            Touch::Noise(bytes) => self.line.device_sends(self.reached_ns, &noise(bytes)),
-            _ => return false,
-        }
+    fn touch(&mut self, wire: &mut Wire, touch: &Touch) -> bool {
+        let Touch::Axis { control, to, over_us } = *touch else {
+            return false;
+        };
+        let Some(pot) = self.pots.get_mut(usize::from(control)) else {
+            return false;
+        };
+        pot.go(wire.now_ns(), to, over_us * 1000);
         true
     }
-}
 
-impl Firmware for Deej {
-    fn receive(&mut self, now_us: u64, bytes: &[u8]) {
-        let now_ns = self.catch_up(now_us);
-        self.line.host_sends(now_ns, bytes);
+    fn lose_power(&mut self, wire: &mut Wire) {
+        self.restart(wire);
     }
 
-    fn transmit(&mut self, now_us: u64, out: &mut Vec<u8>) {
-        let now_ns = self.catch_up(now_us);
-        self.line.deliver(now_ns, out);
-    }
-
-    fn set_line_baud(&mut self, now_us: u64, baud: u32) {
-        self.catch_up(now_us);
-        self.line.set_host_baud(baud);
-    }
-
-    fn set_line_parity(&mut self, now_us: u64, parity: Parity) {
-        self.catch_up(now_us);
-        self.line.set_host_parity(parity);
-    }
-
-    fn port_opened(&mut self, now_us: u64) {
-        self.catch_up(now_us);
+    fn port_opened(&mut self, wire: &mut Wire) {
         if self.options.restarts_when_opened {
-            self.restart();
+            self.restart(wire);
         }
-    }
-
-    fn next_byte_us(&self) -> Option<u64> {
-        self.line.next_delivery_ns().map(|ns| ns.div_ceil(1000))
-    }
-}
-
-impl Hands for Deej {
-    fn touch(&mut self, now_us: u64, touch: &Touch) -> bool {
-        self.catch_up(now_us);
-        self.touch_now(touch)
-    }
-
-    fn reporting_since_us(&self) -> Option<u64> {
-        self.schedule.since_us()
-    }
-}
-
-impl SerialDevice for Deej {
-    fn play(&mut self, script: &Script) {
-        self.schedule.play(script);
-    }
-
-    fn script_is_done(&self) -> bool {
-        self.schedule.is_done()
-    }
-
-    fn line(&self) -> (u32, Parity) {
-        (BAUD, Parity::None)
     }
 
     fn controls(&self) -> Device {
@@ -235,6 +143,21 @@ impl SerialDevice for Deej {
             buttons: 0,
             axes: self.options.pots,
         }
+    }
+}
+
+impl Board {
+    fn reading(&mut self, pot: usize, at_ns: u64) -> u16 {
+        let share = self.pots[pot].at(at_ns);
+        let share = if self.options.inverted { 1.0 - share } else { share };
+        let jitter = i32::from(self.options.jitter_counts);
+        let off = f64::from(self.chance.i32(-jitter..=jitter));
+        (share * COUNTS_MAX + off).round().clamp(0.0, COUNTS_MAX) as u16
+    }
+
+    fn restart(&mut self, wire: &mut Wire) {
+        wire.stop();
+        self.next_loop_ns = wire.now_ns() + wire.span_ns(BOOT_NS);
     }
 }
 

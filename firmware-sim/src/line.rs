@@ -21,12 +21,8 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// A quiet line whose device runs at `baud` by a clock that is `drift_ppm` fast.
-    pub(crate) fn new(baud: u32, drift_ppm: i32) -> Self {
-        Self::with_parity(baud, Parity::None, drift_ppm)
-    }
-
-    /// The same with a parity bit. The host's end begins as the device's.
+    /// A quiet line whose device runs at `baud` by a clock that is `drift_ppm` fast. The host's end begins as the
+    /// device's.
     pub(crate) fn with_parity(baud: u32, parity: Parity, drift_ppm: i32) -> Self {
         let format = Format {
             baud: baud.max(1),
@@ -58,6 +54,11 @@ impl Line {
 
     pub(crate) fn device_baud(&self) -> u32 {
         self.device.baud
+    }
+
+    /// How fast the device's clock is, millionths.
+    pub(crate) fn drift_ppm(&self) -> i32 {
+        self.drift_ppm
     }
 
     /// The device sets its speed by what the host sends.
@@ -108,6 +109,11 @@ impl Line {
                 to_host.push_back((at, if heard.framed { heard.byte } else { 0 }));
             });
         }
+    }
+
+    /// The device writes so many bytes that are lost on the way: the line is as busy as with any.
+    pub(crate) fn device_loses(&mut self, at_ns: u64, bytes: usize) {
+        self.device_free_ns = self.device_free_ns.max(at_ns) + self.device_byte_ns() * bytes as u64;
     }
 
     /// From when on the device's side of the line is idle.

@@ -11,10 +11,9 @@ mod wire;
 mod x_touch_mini;
 
 use crate::dial_box::Output;
-use crate::firmware::Firmware;
-use crate::hands::{Hands, Schedule, Touch, noise};
-use crate::line::Line;
-use crate::script::{Device, Script};
+use crate::hands::{Hands, Touch};
+use crate::script::Device;
+use crate::serial::{Inside, SerialChassis, Wire};
 use crate::serial_kinds::SerialDevice;
 use crate::uart::Parity;
 use crate::usb_device::Ramps;
@@ -106,9 +105,8 @@ pub enum MidiShown {
 /// A moment in a box's life: what it wants said at once, and shown.
 #[derive(Debug)]
 pub struct Moment<'a> {
-    at_us: u64,
+    wire: &'a mut Wire,
     urgent: &'a mut VecDeque<Vec<u8>>,
-    shown: &'a mut Vec<(u64, MidiShown)>,
 }
 
 impl Moment<'_> {
@@ -118,7 +116,7 @@ impl Moment<'_> {
     }
 
     fn show(&mut self, what: MidiShown) {
-        self.shown.push((self.at_us, what));
+        self.wire.show(Output::Midi(what));
     }
 }
 
@@ -155,48 +153,45 @@ pub trait Panel: Send {
 }
 
 /// A box, its cable, and the hands on it.
+pub type MidiBox<P> = SerialChassis<Desk<P>>;
+
+/// What all boxes have in common, around what is on this one.
 #[derive(Clone, Debug)]
-pub struct MidiBox<P> {
+pub struct Desk<P> {
     panel: P,
     options: MidiOptions,
-    line: Line,
     parser: Parser,
     speaker: Speaker,
-    reached_ns: u64,
-    booting_until_ns: Option<u64>,
     sense_at_ns: Option<u64>,
     urgent: VecDeque<Vec<u8>>,
-    schedule: Schedule,
     turns: Ramps,
     slides: Ramps,
     /// Where each axis stands, in steps of its way; what slides move.
     stands: [i32; 32],
-    shown: Vec<(u64, MidiShown)>,
 }
 
 impl<P: Panel> MidiBox<P> {
     fn with_panel(panel: P, options: MidiOptions) -> Self {
-        Self {
+        let desk = Desk {
             panel,
             options,
-            line: Line::new(options.cable.baud(), 0),
             parser: Parser::default(),
             speaker: Speaker::new(options.running_status),
-            reached_ns: 0,
-            booting_until_ns: None,
             sense_at_ns: options.active_sensing.then_some(SENSING_NS),
             urgent: VecDeque::new(),
-            schedule: Schedule::default(),
             turns: Ramps::default(),
             slides: Ramps::default(),
             stands: [0; 32],
-            shown: Vec::new(),
-        }
+        };
+        Self::around(desk, options.cable.baud(), Parity::None, 0)
     }
 
     /// Takes what the host has had shown, each with its time in microseconds.
     pub fn drain_shown(&mut self) -> impl Iterator<Item = (u64, MidiShown)> + '_ {
-        self.shown.drain(..)
+        self.drain_outputs().filter_map(|(at_us, output)| match output {
+            Output::Midi(shown) => Some((at_us, shown)),
+            _ => None,
+        })
     }
 
     /// Turns dial `control` by `clicks` evenly over `over_us`. False: there is no such dial.
@@ -214,83 +209,95 @@ impl<P: Panel> MidiBox<P> {
     pub fn press(&mut self, now_us: u64, control: u8, down: bool) -> bool {
         self.touch(now_us, &Touch::Button { control, down })
     }
+}
 
-    fn catch_up(&mut self, now_us: u64) -> u64 {
-        let now_ns = (now_us * 1000).max(self.reached_ns);
-        self.advance(now_ns);
-        now_ns
+impl<P: Panel> Inside for Desk<P> {
+    fn hear(&mut self, wire: &mut Wire, byte: u8) {
+        let urgent = &mut self.urgent;
+        if let Some(heard) = self.parser.push(byte) {
+            self.panel.hear(heard, &mut Moment { wire, urgent });
+        }
     }
 
+    fn next_ns(&self, wire: &Wire) -> Option<u64> {
+        let speaks = !wire.is_booting() && (!self.urgent.is_empty() || self.panel.has_moved());
+        let line_free_ns = speaks.then(|| wire.free_ns());
+        let events = [self.next_step_ns(), self.sense_at_ns, line_free_ns];
+        events.into_iter().flatten().min()
+    }
+
+    /// Hands that are moving, then a sign of life, then what there is to say.
+    fn happen(&mut self, wire: &mut Wire) {
+        let now_ns = wire.now_ns();
+        let due = |event: Option<u64>| event.is_some_and(|at_ns| at_ns <= now_ns);
+        if due(self.next_step_ns()) {
+            self.step(now_ns / 1000);
+        } else if due(self.sense_at_ns) {
+            self.sense_at_ns = Some(now_ns + SENSING_NS);
+            if !wire.is_booting() {
+                wire.say(&[SENSE]);
+            }
+        } else if let Some(message) = self.urgent.pop_front().or_else(|| self.panel.next_move()) {
+            wire.say(self.speaker.speak(&message));
+        }
+    }
+
+    fn touch(&mut self, wire: &mut Wire, touch: &Touch) -> bool {
+        let at_us = wire.now_ns() / 1000;
+        match *touch {
+            Touch::Dial { control, by, over_us } => {
+                // Turning by nothing asks whether the dial is there.
+                let there = self.panel.turn(control, 0);
+                if there {
+                    let clicks = by.counts(self.panel.clicks_per_turn());
+                    self.turns.begin(at_us, control, clicks, over_us);
+                    self.step(at_us);
+                }
+                there
+            }
+            Touch::Axis { control, to, over_us } => self.begin_slide(at_us, control, to, over_us),
+            Touch::Button { control, down } => {
+                let urgent = &mut self.urgent;
+                self.panel.press(control, down, &mut Moment { wire, urgent })
+            }
+            _ => false,
+        }
+    }
+
+    fn lose_power(&mut self, wire: &mut Wire) {
+        self.panel.lose_power();
+        self.parser = Parser::default();
+        self.speaker = Speaker::new(self.options.running_status);
+        self.urgent.clear();
+        wire.boot(BOOT_NS);
+    }
+
+    /// A host that has something to say has the port open.
+    fn host_writes(&mut self, wire: &mut Wire) {
+        wire.begin_script();
+    }
+
+    fn port_opened(&mut self, wire: &mut Wire) {
+        wire.begin_script();
+    }
+
+    fn is_moving(&self) -> bool {
+        self.next_step_ns().is_some()
+    }
+
+    fn has_one_speed(&self) -> bool {
+        true
+    }
+
+    fn controls(&self) -> Device {
+        self.panel.controls()
+    }
+}
+
+impl<P: Panel> Desk<P> {
     fn next_step_ns(&self) -> Option<u64> {
         let steps = [self.turns.next_us(), self.slides.next_us()];
         steps.into_iter().flatten().min().map(|us| us * 1000)
-    }
-
-    /// Lets everything happen, in its order, that happens up to `to_ns`.
-    fn advance(&mut self, to_ns: u64) {
-        loop {
-            let line_free_ns = self.has_something_to_say().then(|| self.line.device_free_ns());
-            let events = [
-                self.booting_until_ns,
-                self.line.next_arrival_ns(),
-                self.schedule.next_ns(),
-                self.next_step_ns(),
-                line_free_ns,
-                self.sense_at_ns,
-            ];
-            let Some(at_ns) = events.into_iter().flatten().min().filter(|&at| at <= to_ns) else {
-                break;
-            };
-            self.reached_ns = at_ns.max(self.reached_ns);
-            self.happen(self.reached_ns);
-        }
-        self.reached_ns = self.reached_ns.max(to_ns);
-    }
-
-    /// One moment: power, then the host's byte, then hands, then the line.
-    fn happen(&mut self, at_ns: u64) {
-        if self.booting_until_ns.is_some_and(|until| until <= at_ns) {
-            self.booting_until_ns = None;
-        } else if let Some((_, byte)) = self.line.arrival(at_ns) {
-            if self.booting_until_ns.is_none() {
-                self.hear(at_ns, byte);
-            }
-        } else if self.schedule.next_ns().is_some_and(|due| due <= at_ns) {
-            if let Some(touch) = self.schedule.pop() {
-                self.touch_now(at_ns, &touch);
-            }
-        } else if self.next_step_ns().is_some_and(|due| due <= at_ns) {
-            self.step(at_ns / 1000);
-        } else if self.sense_at_ns.is_some_and(|due| due <= at_ns) {
-            self.sense_at_ns = Some(at_ns + SENSING_NS);
-            if self.booting_until_ns.is_none() {
-                self.line.device_sends(at_ns, &[SENSE]);
-            }
-        } else {
-            self.say(at_ns);
-        }
-    }
-
-    fn has_something_to_say(&self) -> bool {
-        self.booting_until_ns.is_none() && (!self.urgent.is_empty() || self.panel.has_moved())
-    }
-
-    fn say(&mut self, at_ns: u64) {
-        let next = self.urgent.pop_front().or_else(|| self.panel.next_move());
-        if let Some(message) = next {
-            self.line.device_sends(at_ns, self.speaker.speak(&message));
-        }
-    }
-
-    fn hear(&mut self, at_ns: u64, byte: u8) {
-        let mut at = Moment {
-            at_us: at_ns / 1000,
-            urgent: &mut self.urgent,
-            shown: &mut self.shown,
-        };
-        if let Some(heard) = self.parser.push(byte) {
-            self.panel.hear(heard, &mut at);
-        }
     }
 
     fn step(&mut self, at_us: u64) {
@@ -305,45 +312,6 @@ impl<P: Panel> MidiBox<P> {
                 panel.slide(control, f64::from(*stand) / f64::from(WAY_STEPS));
             }
         });
-    }
-
-    fn touch_now(&mut self, at_ns: u64, touch: &Touch) -> bool {
-        let at_us = at_ns / 1000;
-        match *touch {
-            Touch::Dial { control, by, over_us } => {
-                // Turning by nothing asks whether the dial is there.
-                let there = self.panel.turn(control, 0);
-                if there {
-                    let clicks = by.counts(self.panel.clicks_per_turn());
-                    self.turns.begin(at_us, control, clicks, over_us);
-                    self.step(at_us);
-                }
-                there
-            }
-            Touch::Axis { control, to, over_us } => self.begin_slide(at_us, control, to, over_us),
-            Touch::Button { control, down } => {
-                let mut at = Moment {
-                    at_us,
-                    urgent: &mut self.urgent,
-                    shown: &mut self.shown,
-                };
-                self.panel.press(control, down, &mut at)
-            }
-            Touch::PowerCycle => {
-                self.panel.lose_power();
-                self.parser = Parser::default();
-                self.speaker = Speaker::new(self.options.running_status);
-                self.urgent.clear();
-                self.line.device_stops(at_ns);
-                self.booting_until_ns = Some(at_ns + BOOT_NS);
-                true
-            }
-            Touch::Noise(bytes) => {
-                self.line.device_sends(at_ns, &noise(bytes));
-                true
-            }
-            Touch::Pen(_) | Touch::Puck(_) | Touch::Away | Touch::Lift(_) | Touch::Ring { .. } => false,
-        }
     }
 
     fn begin_slide(&mut self, at_us: u64, control: u8, to: f64, over_us: u64) -> bool {
@@ -361,34 +329,6 @@ impl<P: Panel> MidiBox<P> {
     }
 }
 
-impl<P: Panel> Firmware for MidiBox<P> {
-    fn receive(&mut self, now_us: u64, bytes: &[u8]) {
-        let now_ns = self.catch_up(now_us);
-        // A host that has something to say has the port open.
-        self.schedule.begin(now_ns);
-        self.line.host_sends(now_ns, bytes);
-    }
-
-    fn transmit(&mut self, now_us: u64, out: &mut Vec<u8>) {
-        let now_ns = self.catch_up(now_us);
-        self.line.deliver(now_ns, out);
-    }
-
-    /// A MIDI cable has one speed.
-    fn set_line_baud(&mut self, now_us: u64, _baud: u32) {
-        self.catch_up(now_us);
-    }
-
-    fn port_opened(&mut self, now_us: u64) {
-        let now_ns = self.catch_up(now_us);
-        self.schedule.begin(now_ns);
-    }
-
-    fn next_byte_us(&self) -> Option<u64> {
-        self.line.next_delivery_ns().map(|ns| ns.div_ceil(1000))
-    }
-}
-
 /// The box of the profile of this name, on USB; none where it is not simulated. What its owner must have set up for
 /// the profile to be right is set up.
 pub(crate) fn of_profile(key: &str) -> Option<Box<dyn SerialDevice>> {
@@ -400,46 +340,6 @@ pub(crate) fn of_profile(key: &str) -> Option<Box<dyn SerialDevice>> {
         "launch-control-xl" => Box::new(LaunchControlXl::new(options)),
         _ => return None,
     })
-}
-
-impl<P: Panel> SerialDevice for MidiBox<P> {
-    /// Times count from the moment the host opened the port: such a box reports by itself.
-    fn play(&mut self, script: &Script) {
-        let actions = script.actions.iter();
-        self.schedule
-            .add(actions.map(|action| (action.at_us, action.touch.clone())));
-    }
-
-    fn script_is_done(&self) -> bool {
-        self.schedule.is_done() && self.next_step_ns().is_none()
-    }
-
-    fn drain_outputs(&mut self, take: &mut dyn FnMut(u64, Output)) {
-        for (at_us, shown) in self.drain_shown() {
-            take(at_us, Output::Midi(shown));
-        }
-    }
-
-    fn line(&self) -> (u32, Parity) {
-        (self.options.cable.baud(), Parity::None)
-    }
-
-    fn controls(&self) -> Device {
-        self.panel.controls()
-    }
-}
-
-impl<P: Panel> Hands for MidiBox<P> {
-    fn touch(&mut self, now_us: u64, touch: &Touch) -> bool {
-        let now_ns = self.catch_up(now_us);
-        let touched = self.touch_now(now_ns, touch);
-        self.advance(now_ns);
-        touched
-    }
-
-    fn reporting_since_us(&self) -> Option<u64> {
-        self.schedule.since_us()
-    }
 }
 
 #[cfg(test)]

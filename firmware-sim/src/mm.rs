@@ -8,11 +8,9 @@
 mod command;
 mod packet;
 
-use crate::firmware::Firmware;
-use crate::hands::{Hands, Schedule, Touch, noise};
-use crate::line::{Line, shortened};
-use crate::script::{Device, Script};
-use crate::serial_kinds::SerialDevice;
+use crate::hands::Touch;
+use crate::script::Device;
+use crate::serial::{Inside, SerialChassis, Wire};
 use crate::uart::Parity;
 use command::{Command, Parser};
 use device_profiles::{InputProfile, MmFraming};
@@ -41,6 +39,13 @@ pub enum Form {
     Mm1103,
     /// Bit Pad Two: `XXXX,YYYY,F`, return, line feed; F is 9 where there is nothing.
     BitPadTwo,
+}
+
+impl Form {
+    /// How it begins: one that writes text has switches for its speed and is asked nothing, the others wait for spaces.
+    fn asleep(self) -> Option<u32> {
+        (self == Self::Binary).then_some(0)
+    }
 }
 
 /// What tells one model from another on the wire.
@@ -101,12 +106,12 @@ struct Settings {
 }
 
 /// The tablet, its line, and the hand over it.
+pub type SummagraphicsMm = SerialChassis<Tablet>;
+
+/// What is in the tablet.
 #[derive(Clone, Debug)]
-pub struct SummagraphicsMm {
+pub struct Tablet {
     model: Model,
-    drift_ppm: i32,
-    line: Line,
-    reached_ns: u64,
     deaf_until_ns: u64,
     /// Spaces heard since power-up; none once it is awake.
     asleep: Option<u32>,
@@ -118,83 +123,66 @@ pub struct SummagraphicsMm {
     told: [u16; 2],
     pending: VecDeque<Pointer>,
     next_report_ns: u64,
-    schedule: Schedule,
     unknown: u64,
 }
 
 impl SummagraphicsMm {
     /// A tablet just switched on, which has not yet found the host's speed; its clock is `drift_ppm` millionths fast.
     pub fn new(model: Model, drift_ppm: i32) -> Self {
-        Self {
+        let tablet = Tablet {
             settings: defaults(&model),
+            asleep: model.form.asleep(),
             model,
-            drift_ppm,
-            line: Line::with_parity(BAUD, Parity::Odd, drift_ppm),
-            reached_ns: 0,
             deaf_until_ns: 0,
-            asleep: Some(0),
             parser: Parser::default(),
             pointer: None,
             left: None,
             told: [0; 2],
             pending: VecDeque::new(),
             next_report_ns: 0,
-            schedule: Schedule::default(),
             unknown: 0,
-        }
+        };
+        Self::around(tablet, BAUD, Parity::Odd, drift_ppm)
     }
 
     /// Whether it has found the host's speed.
     pub fn is_awake(&self) -> bool {
-        self.asleep.is_none()
+        self.inside.asleep.is_none()
     }
 
     /// Commands that were not understood.
     pub fn unknown_commands(&self) -> u64 {
-        self.unknown
+        self.inside.unknown
     }
+}
 
-    fn catch_up(&mut self, now_us: u64) -> u64 {
-        let now_ns = (now_us * 1000).max(self.reached_ns);
-        self.advance(now_ns);
-        now_ns
-    }
-
-    /// Lets everything happen, in its order, that happens up to `to_ns`.
-    fn advance(&mut self, to_ns: u64) {
-        loop {
-            let events = [
-                self.line.next_arrival_ns(),
-                self.schedule.next_ns(),
-                self.next_report(),
-            ];
-            let Some(at_ns) = events.into_iter().flatten().min().filter(|&at| at <= to_ns) else {
-                break;
-            };
-            self.reached_ns = self.reached_ns.max(at_ns);
-            if let Some((at, byte)) = self.line.arrival(self.reached_ns) {
-                self.hear(at, byte);
-            } else if self.schedule.next_ns().is_some_and(|due| due <= self.reached_ns) {
-                if let Some(touch) = self.schedule.pop() {
-                    self.touch_now(&touch);
+impl Inside for Tablet {
+    fn hear(&mut self, wire: &mut Wire, byte: u8) {
+        if let Some(spaces) = self.asleep {
+            self.asleep = match byte {
+                b' ' => Some(spaces + 1),
+                _ if spaces >= SPACES_TO_WAKE => {
+                    self.reset(wire.now_ns());
+                    None
                 }
-            } else if let Some(pointer) = self.pending.pop_front().or(self.pointer) {
-                self.report(&pointer);
-            }
+                _ => Some(0),
+            };
+            return;
         }
-        self.reached_ns = self.reached_ns.max(to_ns);
+        if wire.now_ns() < self.deaf_until_ns {
+            return;
+        }
+        if let Some(command) = self.parser.push(byte) {
+            self.obey(wire, command);
+        }
     }
 
     /// When the next report is due: a change as soon as the line is free, a still tool after its time.
-    fn next_report(&self) -> Option<u64> {
+    fn next_ns(&self, wire: &Wire) -> Option<u64> {
         if !self.settings.streaming || self.asleep.is_some() {
             return None;
         }
-        let free_ns = self
-            .line
-            .device_free_ns()
-            .max(self.deaf_until_ns)
-            .max(self.reached_ns);
+        let free_ns = wire.free_ns().max(self.deaf_until_ns);
         if !self.pending.is_empty() {
             return Some(free_ns);
         }
@@ -202,102 +190,18 @@ impl SummagraphicsMm {
         repeats.then(|| free_ns.max(self.next_report_ns))
     }
 
-    fn report(&mut self, pointer: &Pointer) {
-        let mut bytes = Vec::with_capacity(16);
-        let manner = self.settings.manner;
-        manner.report(pointer, self.told, &mut bytes);
-        self.told = manner.counts(pointer);
-        self.line.device_sends(self.reached_ns, &bytes);
-        self.next_report_ns = self.reached_ns + shortened(REPEAT_NS, self.drift_ppm);
-    }
-
-    fn hear(&mut self, at_ns: u64, byte: u8) {
-        if let Some(spaces) = self.asleep {
-            self.asleep = match byte {
-                b' ' => Some(spaces + 1),
-                _ if spaces >= SPACES_TO_WAKE => {
-                    self.reset(at_ns);
-                    None
-                }
-                _ => Some(0),
-            };
-            return;
-        }
-        if at_ns < self.deaf_until_ns {
-            return;
-        }
-        if let Some(command) = self.parser.push(byte) {
-            self.obey(at_ns, command);
+    fn happen(&mut self, wire: &mut Wire) {
+        if let Some(pointer) = self.pending.pop_front().or(self.pointer) {
+            self.report(wire, &pointer);
         }
     }
 
-    fn obey(&mut self, at_ns: u64, command: Command) {
-        let settings = &mut self.settings;
-        match command {
-            Command::Reset => self.reset(at_ns),
-            Command::PromptMode => {
-                settings.streaming = false;
-                self.pending.clear();
-                self.schedule.begin(at_ns);
-            }
-            Command::Stream => {
-                settings.streaming = true;
-                self.schedule.begin(at_ns);
-                self.pending.clear();
-                self.pending.extend(self.pointer);
-            }
-            Command::Prompt => {
-                let nothing = self.left.unwrap_or(Pointer::pen(&crate::hands::Pen::default()));
-                let pointer = self.pointer.unwrap_or(nothing.leaving());
-                self.report(&pointer);
-            }
-            Command::Absolute(on) => settings.manner.absolute = on,
-            Command::UpperOrigin => settings.manner.upper_origin = true,
-            Command::Binary => settings.manner.form = Form::Binary,
-            Command::TabletId(id) => settings.manner.tablet_id = id,
-            Command::Increment(counts) => settings.increment = counts,
-            Command::Resolution(counts_per_inch) => settings.manner.counts_per_inch = counts_per_inch,
-            Command::Identify => {
-                let answer = format!("{}\r", self.model.text);
-                self.line.device_sends(at_ns, answer.as_bytes());
-            }
-            Command::Configuration => {
-                let mut bytes = Vec::with_capacity(5);
-                settings.manner.configuration(&mut bytes);
-                self.line.device_sends(at_ns, &bytes);
-            }
-            Command::Nothing => {}
-            Command::Unknown => self.unknown += 1,
-        }
-    }
-
-    fn reset(&mut self, at_ns: u64) {
-        self.deaf_until_ns = at_ns + WAKE_NS;
-        self.settings = defaults(&self.model);
-        self.parser = Parser::default();
-        self.told = [0; 2];
-        self.pending.clear();
-        self.pending.extend(self.pointer);
-    }
-
-    fn touch_now(&mut self, touch: &Touch) -> bool {
+    fn touch(&mut self, _wire: &mut Wire, touch: &Touch) -> bool {
         let next = match touch {
             Touch::Pen(pen) => Some(Pointer::pen(pen)),
             Touch::Puck(puck) => Some(Pointer::puck(puck)),
             Touch::Away | Touch::Lift(_) => None,
-            Touch::PowerCycle => {
-                self.line.device_stops(self.reached_ns);
-                self.reset(self.reached_ns);
-                self.asleep = Some(0);
-                return true;
-            }
-            Touch::Noise(bytes) => {
-                self.line.device_sends(self.reached_ns, &noise(*bytes));
-                return true;
-            }
-            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } | Touch::Ring { .. } => {
-                return false;
-            }
+            _ => return false,
         };
         let before = self.pointer;
         self.pointer = next;
@@ -315,6 +219,84 @@ impl SummagraphicsMm {
             }
         }
         true
+    }
+
+    fn lose_power(&mut self, wire: &mut Wire) {
+        self.reset(wire.now_ns());
+        self.asleep = self.model.form.asleep();
+    }
+
+    fn port_opened(&mut self, wire: &mut Wire) {
+        if self.asleep.is_none() {
+            wire.begin_script();
+        }
+    }
+
+    fn host_writes(&mut self, wire: &mut Wire) {
+        if self.asleep.is_some() {
+            wire.find_speed();
+        }
+    }
+
+    fn controls(&self) -> Device {
+        Device::Tablet
+    }
+}
+
+impl Tablet {
+    fn report(&mut self, wire: &mut Wire, pointer: &Pointer) {
+        let mut bytes = Vec::with_capacity(16);
+        let manner = self.settings.manner;
+        manner.report(pointer, self.told, &mut bytes);
+        self.told = manner.counts(pointer);
+        wire.say(&bytes);
+        self.next_report_ns = wire.now_ns() + wire.span_ns(REPEAT_NS);
+    }
+
+    fn obey(&mut self, wire: &mut Wire, command: Command) {
+        let settings = &mut self.settings;
+        match command {
+            Command::Reset => self.reset(wire.now_ns()),
+            Command::PromptMode => {
+                settings.streaming = false;
+                self.pending.clear();
+                wire.begin_script();
+            }
+            Command::Stream => {
+                settings.streaming = true;
+                wire.begin_script();
+                self.pending.clear();
+                self.pending.extend(self.pointer);
+            }
+            Command::Prompt => {
+                let nothing = self.left.unwrap_or(Pointer::pen(&crate::hands::Pen::default()));
+                let pointer = self.pointer.unwrap_or(nothing.leaving());
+                self.report(wire, &pointer);
+            }
+            Command::Absolute(on) => settings.manner.absolute = on,
+            Command::UpperOrigin => settings.manner.upper_origin = true,
+            Command::Binary => settings.manner.form = Form::Binary,
+            Command::TabletId(id) => settings.manner.tablet_id = id,
+            Command::Increment(counts) => settings.increment = counts,
+            Command::Resolution(counts_per_inch) => settings.manner.counts_per_inch = counts_per_inch,
+            Command::Identify => wire.say(format!("{}\r", self.model.text).as_bytes()),
+            Command::Configuration => {
+                let mut bytes = Vec::with_capacity(5);
+                settings.manner.configuration(&mut bytes);
+                wire.say(&bytes);
+            }
+            Command::Nothing => {}
+            Command::Unknown => self.unknown += 1,
+        }
+    }
+
+    fn reset(&mut self, at_ns: u64) {
+        self.deaf_until_ns = at_ns + WAKE_NS;
+        self.settings = defaults(&self.model);
+        self.parser = Parser::default();
+        self.told = [0; 2];
+        self.pending.clear();
+        self.pending.extend(self.pointer);
     }
 
     /// An edge always is; a move where it is as long as the increment, measured from the place told last.
@@ -351,66 +333,6 @@ fn defaults(model: &Model) -> Settings {
             tablet_id: false,
             form: model.form,
         },
-    }
-}
-
-impl Firmware for SummagraphicsMm {
-    fn receive(&mut self, now_us: u64, bytes: &[u8]) {
-        let now_ns = self.catch_up(now_us);
-        if self.asleep.is_some() {
-            self.line.find_speed();
-        }
-        self.line.host_sends(now_ns, bytes);
-    }
-
-    fn transmit(&mut self, now_us: u64, out: &mut Vec<u8>) {
-        let now_ns = self.catch_up(now_us);
-        self.line.deliver(now_ns, out);
-    }
-
-    fn set_line_baud(&mut self, now_us: u64, baud: u32) {
-        self.catch_up(now_us);
-        self.line.set_host_baud(baud);
-    }
-
-    fn set_line_parity(&mut self, now_us: u64, parity: Parity) {
-        self.catch_up(now_us);
-        self.line.set_host_parity(parity);
-    }
-
-    fn next_byte_us(&self) -> Option<u64> {
-        self.line.next_delivery_ns().map(|ns| ns.div_ceil(1000))
-    }
-}
-
-impl Hands for SummagraphicsMm {
-    fn touch(&mut self, now_us: u64, touch: &Touch) -> bool {
-        let now_ns = self.catch_up(now_us);
-        let touched = self.touch_now(touch);
-        self.advance(now_ns);
-        touched
-    }
-
-    fn reporting_since_us(&self) -> Option<u64> {
-        self.schedule.since_us()
-    }
-}
-
-impl SerialDevice for SummagraphicsMm {
-    fn play(&mut self, script: &Script) {
-        self.schedule.play(script);
-    }
-
-    fn script_is_done(&self) -> bool {
-        self.schedule.is_done()
-    }
-
-    fn line(&self) -> (u32, Parity) {
-        (BAUD, Parity::Odd)
-    }
-
-    fn controls(&self) -> Device {
-        Device::Tablet
     }
 }
 

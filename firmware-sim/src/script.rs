@@ -28,6 +28,8 @@ pub enum Device {
         /// Rings and strips.
         rings: u8,
     },
+    /// Whatever it is: what it has no control for it refuses itself.
+    Any,
 }
 
 impl Device {
@@ -37,6 +39,35 @@ impl Device {
         buttons: 32,
         axes: 0,
     };
+
+    /// So many controls that `verb` is about; pens and pucks count as one.
+    fn count(self, verb: &str) -> u8 {
+        match (self, verb) {
+            (Self::Any, _) => u8::MAX,
+            (Self::Controls { dials, .. }, "dial") => dials,
+            (Self::Controls { buttons, .. }, "button") => buttons,
+            (Self::Controls { axes, .. }, "axis") => axes,
+            (Self::Pad { keys, .. }, "button") => keys,
+            (Self::Pad { rings, .. }, "ring") => rings,
+            (Self::Tablet | Self::Pad { .. }, "pen") | (Self::Tablet, "puck") => 1,
+            _ => 0,
+        }
+    }
+}
+
+/// Reads what one hand does, in the words of a script without the time, for a device that may have any controls.
+pub fn touch(text: &str) -> Result<Touch, ScriptError> {
+    const TIME: &str = "at 0 ";
+    let flaw = |column: u32, message: String| ScriptError {
+        line: 1,
+        column: column.saturating_sub(TIME.len() as u32).max(1),
+        message,
+    };
+    match line::parse(Device::Any, &format!("{TIME}{text}")) {
+        Ok(Some(action)) => Ok(action.touch),
+        Ok(None) => Err(flaw(0, "expected an action".to_owned())),
+        Err(fault) => Err(flaw(fault.column, fault.message)),
+    }
 }
 
 /// One line of a script.

@@ -9,7 +9,6 @@
 pub(crate) mod chassis;
 mod descriptor;
 mod facts;
-mod fault;
 pub(crate) mod pad;
 mod ramps;
 mod waiting;
@@ -17,11 +16,11 @@ mod waiting;
 pub(crate) use chassis::{Chassis, Inside, Moment};
 pub(crate) use descriptor::Descriptor;
 pub use facts::{HidInterface, UsbFacts, string_descriptor};
-pub use fault::{UsbFault, UsbFaultError};
 pub(crate) use ramps::Ramps;
 pub(crate) use waiting::Waiting;
 
 use crate::hands::Hands;
+use crate::input_fault::{InputFault, Message};
 use crate::script::Script;
 
 /// The device refuses a request (a stall on the wire).
@@ -36,6 +35,12 @@ pub struct Report {
     pub interface: u8,
     /// Its bytes, id first where the interface numbers its reports.
     pub bytes: Vec<u8>,
+}
+
+impl Message for Report {
+    fn bytes(&mut self) -> &mut Vec<u8> {
+        &mut self.bytes
+    }
 }
 
 /// A request on the control pipe that is neither standard nor HID.
@@ -113,7 +118,7 @@ pub trait UsbDevice: Hands + Send {
     fn request(&mut self, now_us: u64, request: Request, data: &[u8]) -> Result<Vec<u8>, Stall>;
 
     /// Brings a fault in.
-    fn inject(&mut self, now_us: u64, fault: UsbFault);
+    fn inject(&mut self, now_us: u64, fault: InputFault);
 
     /// Plays `script` as well, its times counted from [`Hands::reporting_since_us`].
     fn play(&mut self, script: &Script);

@@ -6,8 +6,10 @@ use crate::usb_device::UsbDevice;
 /// A kind of simulated USB device.
 #[derive(Clone, Copy, Debug)]
 pub struct UsbKind {
-    /// The name of the profile that describes the real one.
+    /// What it is called here: the name of the profile, and more where several devices answer to one.
     pub name: &'static str,
+    /// The name of the profile that describes the real one.
+    pub profile: &'static str,
     /// What scripts may do to it.
     pub controls: script::Device,
     /// Makes one, plugged in.
@@ -33,13 +35,21 @@ pub const USB_KINDS: &[UsbKind] = &[
     kind("shuttlepro-v2", boxed(1, 15, 1), crate::shuttle_pro::shuttle_pro),
     kind("hs610", pad(13, 1), crate::hs610::hs610),
     kind("deco-01-v2", pad(8, 0), crate::deco_01_v2::deco_01_v2),
-    kind("deco-01-v2-rev-b", pad(8, 0), crate::deco_01_v2::deco_01_v2_rev_b),
+    UsbKind {
+        profile: "deco-01-v2",
+        ..kind("deco-01-v2-rev-b", pad(8, 0), crate::deco_01_v2::deco_01_v2_rev_b)
+    },
     kind("ctl-472", pad(0, 0), crate::ctl_472::ctl_472),
     kind("pth-660", pad(9, 1), crate::pth_660::pth_660),
 ];
 
 const fn kind(name: &'static str, controls: script::Device, make: fn() -> Box<dyn UsbDevice>) -> UsbKind {
-    UsbKind { name, controls, make }
+    UsbKind {
+        name,
+        profile: name,
+        controls,
+        make,
+    }
 }
 
 /// The kind of this name.
@@ -51,7 +61,8 @@ pub fn usb_kind(name: &str) -> Option<&'static UsbKind> {
 mod tests {
     use super::*;
     use crate::hands::{Pen, Touch, Turn};
-    use crate::usb_device::{HidInterface, Report, UsbFault};
+    use crate::input_fault::InputFault;
+    use crate::usb_device::{HidInterface, Report};
     use std::collections::BTreeMap;
 
     /// Lengths in bits of the input reports a descriptor describes, read independently of what wrote it.
@@ -124,7 +135,7 @@ mod tests {
                 let ring = [Some(0.0), Some(1.0), None].map(|at| Touch::Ring { control: 0, at });
                 touches.extend(ring.into_iter().filter(|_| rings > 0));
             }
-            script::Device::Tablet => {}
+            script::Device::Tablet | script::Device::Any => {}
         }
         touches
     }
@@ -195,7 +206,7 @@ mod tests {
         for kind in USB_KINDS {
             for step in 0..6 {
                 let mut device = (kind.make)();
-                device.inject(0, UsbFault::UnplugAfterRequests(step));
+                device.inject(0, InputFault::UnplugAfterRequests(step));
                 let main = device.facts().main;
                 device.listen(0, main, true);
                 for second in 0..3 {

@@ -8,10 +8,9 @@
 mod command;
 mod packet;
 
-use crate::firmware::Firmware;
-use crate::hands::{Hands, Schedule, Touch, noise};
-use crate::line::{Line, shortened};
-use crate::script::Script;
+use crate::hands::Touch;
+use crate::script::Device;
+use crate::serial::{Inside, SerialChassis, Wire};
 use crate::uart::Parity;
 use command::{Command, Parser};
 use device_profiles::InputProfile;
@@ -69,19 +68,18 @@ impl From<&InputProfile> for Model {
 }
 
 /// The tablet, its line, and the hand over it.
+pub type WacomIv = SerialChassis<Tablet>;
+
+/// What is in the tablet.
 #[derive(Clone, Debug)]
-pub struct WacomIv {
+pub struct Tablet {
     model: Model,
-    drift_ppm: i32,
-    line: Line,
-    reached_ns: u64,
     deaf_until_ns: u64,
     parser: Parser,
     settings: Settings,
     pointer: Option<Pointer>,
     pending: VecDeque<Pointer>,
     next_packet_ns: u64,
-    schedule: Schedule,
     unknown: u64,
 }
 
@@ -98,117 +96,112 @@ struct Settings {
 impl WacomIv {
     /// A tablet switched on a while ago, not yet told to report; its clock is `drift_ppm` millionths fast.
     pub fn new(model: Model, drift_ppm: i32) -> Self {
-        Self {
+        let tablet = Tablet {
             settings: Settings {
                 scale: Scale::of(&model),
                 ..Settings::default()
             },
             model,
-            drift_ppm,
-            line: Line::new(BAUD, drift_ppm),
-            reached_ns: 0,
             deaf_until_ns: 0,
             parser: Parser::default(),
             pointer: None,
             pending: VecDeque::new(),
             next_packet_ns: 0,
-            schedule: Schedule::default(),
             unknown: 0,
-        }
-    }
-
-    /// Plays `script` as well, its times counted from the first `ST`.
-    pub fn play(&mut self, script: &Script) {
-        self.schedule.add(
-            script
-                .actions
-                .iter()
-                .map(|action| (action.at_us, action.touch.clone())),
-        );
-    }
-
-    /// Whether every scripted touch has been made.
-    pub fn script_is_done(&self) -> bool {
-        self.schedule.is_done()
+        };
+        Self::around(tablet, BAUD, Parity::None, drift_ppm)
     }
 
     /// Whether the host has switched reporting on and not off again.
     pub fn is_streaming(&self) -> bool {
-        self.settings.streaming
+        self.inside.settings.streaming
     }
 
     /// Commands that were not understood.
     pub fn unknown_commands(&self) -> u64 {
-        self.unknown
+        self.inside.unknown
     }
+}
 
-    fn catch_up(&mut self, now_us: u64) -> u64 {
-        let now_ns = (now_us * 1000).max(self.reached_ns);
-        self.advance(now_ns);
-        now_ns
-    }
-
-    /// Lets everything happen, in its order, that happens up to `to_ns`.
-    fn advance(&mut self, to_ns: u64) {
-        loop {
-            let slot = (self.settings.streaming && !self.pending.is_empty()).then(|| {
-                self.line
-                    .device_free_ns()
-                    .max(self.next_packet_ns)
-                    .max(self.reached_ns)
-            });
-            let events = [self.line.next_arrival_ns(), self.schedule.next_ns(), slot];
-            let Some(at_ns) = events.into_iter().flatten().min().filter(|&at| at <= to_ns) else {
-                break;
-            };
-            self.reached_ns = self.reached_ns.max(at_ns);
-            if let Some((at, byte)) = self.line.arrival(self.reached_ns) {
-                self.hear(at, byte);
-            } else if self.schedule.next_ns().is_some_and(|due| due <= self.reached_ns) {
-                if let Some(touch) = self.schedule.pop() {
-                    self.touch_now(&touch);
-                }
-            } else if let Some(pointer) = self.pending.pop_front() {
-                self.report(&pointer);
-            }
-        }
-        self.reached_ns = self.reached_ns.max(to_ns);
-    }
-
-    fn report(&mut self, pointer: &Pointer) {
-        let at_ns = self.reached_ns;
-        let (packet, len) = packet::packet(pointer, &self.settings.scale, self.settings.tilt);
-        self.line.device_sends(at_ns, &packet[..len]);
-        let interval_ns = u64::from(self.settings.interval) * INTERVAL_NS;
-        self.next_packet_ns = at_ns + shortened(interval_ns, self.drift_ppm);
-    }
-
-    fn hear(&mut self, at_ns: u64, byte: u8) {
-        if at_ns < self.deaf_until_ns {
+impl Inside for Tablet {
+    fn hear(&mut self, wire: &mut Wire, byte: u8) {
+        if wire.now_ns() < self.deaf_until_ns {
             return;
         }
-        let Some(command) = self.parser.push(byte) else {
+        if let Some(command) = self.parser.push(byte) {
+            self.obey(wire, command);
+        }
+    }
+
+    fn next_ns(&self, wire: &Wire) -> Option<u64> {
+        let reports = self.settings.streaming && !self.pending.is_empty();
+        reports.then(|| wire.free_ns().max(self.next_packet_ns))
+    }
+
+    fn happen(&mut self, wire: &mut Wire) {
+        let Some(pointer) = self.pending.pop_front() else {
             return;
         };
+        let (packet, len) = packet::packet(&pointer, &self.settings.scale, self.settings.tilt);
+        wire.say(&packet[..len]);
+        let interval_ns = u64::from(self.settings.interval) * INTERVAL_NS;
+        self.next_packet_ns = wire.now_ns() + wire.span_ns(interval_ns);
+    }
+
+    fn touch(&mut self, _wire: &mut Wire, touch: &Touch) -> bool {
+        let next = match touch {
+            Touch::Pen(pen) => Some(Pointer::pen(pen, self.model.eraser_bit)),
+            Touch::Puck(puck) => Some(Pointer::puck(puck, self.model.wheel)),
+            Touch::Away | Touch::Lift(_) => None,
+            _ => return false,
+        };
+        let before = self.pointer;
+        self.pointer = next;
+        if let Some(left) = before.filter(|before| next.is_none_or(|next| next.stylus != before.stylus)) {
+            self.queue(left.leaving());
+        }
+        if let Some(next) = next {
+            let still = before.is_some_and(|before| {
+                before.is_near(&next, &self.settings.scale, self.settings.suppress_counts)
+            });
+            if !still {
+                self.queue(next);
+            }
+        }
+        true
+    }
+
+    fn lose_power(&mut self, wire: &mut Wire) {
+        self.reset(wire.now_ns() + RESET_BAUD_NS, false);
+    }
+
+    fn controls(&self) -> Device {
+        Device::Tablet
+    }
+}
+
+impl Tablet {
+    fn obey(&mut self, wire: &mut Wire, command: Command) {
+        let now_ns = wire.now_ns();
         match command {
-            Command::ResetBaud => self.reset(at_ns + RESET_BAUD_NS, false),
+            Command::ResetBaud => self.reset(now_ns + RESET_BAUD_NS, false),
             // A reset tablet streams, which is why drivers follow it with `SP`.
-            Command::Reset => self.reset(at_ns + RESET_NS, true),
+            Command::Reset => self.reset(now_ns + RESET_NS, true),
             Command::Identify => {
                 let answer = format!("~#{},V{}\r", self.model.text, self.model.version);
-                self.answer(at_ns, &answer);
+                wire.say(answer.as_bytes());
             }
             Command::Resolution => {
                 let [x, y] = self.model.resolution;
-                self.answer(at_ns, &format!("~RE202C900,002,02,{x},{y}\r"));
+                wire.say(format!("~RE202C900,002,02,{x},{y}\r").as_bytes());
             }
             Command::Size if !self.model.answers_size => self.unknown += 1,
             Command::Size => {
                 let [x, y] = self.model.max;
-                self.answer(at_ns, &format!("~C{x},{y}\r"));
+                wire.say(format!("~C{x},{y}\r").as_bytes());
             }
             Command::Start => {
-                self.schedule.begin(at_ns);
+                wire.begin_script();
                 self.start();
             }
             Command::Stop => {
@@ -245,44 +238,6 @@ impl WacomIv {
         }
     }
 
-    fn answer(&mut self, at_ns: u64, text: &str) {
-        self.line.device_sends(at_ns, text.as_bytes());
-    }
-
-    fn touch_now(&mut self, touch: &Touch) -> bool {
-        let next = match touch {
-            Touch::Pen(pen) => Some(Pointer::pen(pen, self.model.eraser_bit)),
-            Touch::Puck(puck) => Some(Pointer::puck(puck, self.model.wheel)),
-            Touch::Away | Touch::Lift(_) => None,
-            Touch::PowerCycle => {
-                self.line.device_stops(self.reached_ns);
-                self.reset(self.reached_ns + RESET_BAUD_NS, false);
-                return true;
-            }
-            Touch::Noise(bytes) => {
-                self.line.device_sends(self.reached_ns, &noise(*bytes));
-                return true;
-            }
-            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } | Touch::Ring { .. } => {
-                return false;
-            }
-        };
-        let before = self.pointer;
-        self.pointer = next;
-        if let Some(left) = before.filter(|before| next.is_none_or(|next| next.stylus != before.stylus)) {
-            self.queue(left.leaving());
-        }
-        if let Some(next) = next {
-            let still = before.is_some_and(|before| {
-                before.is_near(&next, &self.settings.scale, self.settings.suppress_counts)
-            });
-            if !still {
-                self.queue(next);
-            }
-        }
-        true
-    }
-
     /// Adds a report; one that differs from the last waiting only in place, pressure or wheel takes its place.
     fn queue(&mut self, pointer: Pointer) {
         if !self.settings.streaming {
@@ -292,45 +247,6 @@ impl WacomIv {
             Some(last) if last.has_edges_of(&pointer) => last.become_later(pointer),
             _ => self.pending.push_back(pointer),
         }
-    }
-}
-
-impl Firmware for WacomIv {
-    fn receive(&mut self, now_us: u64, bytes: &[u8]) {
-        let now_ns = self.catch_up(now_us);
-        self.line.host_sends(now_ns, bytes);
-    }
-
-    fn transmit(&mut self, now_us: u64, out: &mut Vec<u8>) {
-        let now_ns = self.catch_up(now_us);
-        self.line.deliver(now_ns, out);
-    }
-
-    fn set_line_baud(&mut self, now_us: u64, baud: u32) {
-        self.catch_up(now_us);
-        self.line.set_host_baud(baud);
-    }
-
-    fn set_line_parity(&mut self, now_us: u64, parity: Parity) {
-        self.catch_up(now_us);
-        self.line.set_host_parity(parity);
-    }
-
-    fn next_byte_us(&self) -> Option<u64> {
-        self.line.next_delivery_ns().map(|ns| ns.div_ceil(1000))
-    }
-}
-
-impl Hands for WacomIv {
-    fn touch(&mut self, now_us: u64, touch: &Touch) -> bool {
-        let now_ns = self.catch_up(now_us);
-        let touched = self.touch_now(touch);
-        self.advance(now_ns);
-        touched
-    }
-
-    fn reporting_since_us(&self) -> Option<u64> {
-        self.schedule.since_us()
     }
 }
 

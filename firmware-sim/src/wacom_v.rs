@@ -8,11 +8,9 @@
 mod command;
 mod packet;
 
-use crate::firmware::Firmware;
-use crate::hands::{Hands, Held, Schedule, Touch, noise};
-use crate::line::{Line, shortened};
-use crate::script::{Device, Script};
-use crate::serial_kinds::SerialDevice;
+use crate::hands::{Held, Touch};
+use crate::script::Device;
+use crate::serial::{Inside, SerialChassis, Wire};
 use crate::uart::Parity;
 use command::{Command, Parser};
 use device_profiles::InputProfile;
@@ -134,12 +132,12 @@ struct Settings {
 }
 
 /// The tablet, its line, and the hands over it.
+pub type WacomV = SerialChassis<Tablet>;
+
+/// What is in the tablet.
 #[derive(Clone, Debug)]
-pub struct WacomV {
+pub struct Tablet {
     model: Model,
-    drift_ppm: i32,
-    line: Line,
-    reached_ns: u64,
     deaf_until_ns: u64,
     parser: Parser,
     settings: Settings,
@@ -147,121 +145,118 @@ pub struct WacomV {
     channels: [Option<Pointer>; CHANNELS],
     pending: VecDeque<(u8, Report)>,
     next_packet_ns: u64,
-    schedule: Schedule,
     unknown: u64,
 }
 
 impl WacomV {
     /// A tablet switched on a while ago, not yet told to report; its clock is `drift_ppm` millionths fast.
     pub fn new(model: Model, drift_ppm: i32) -> Self {
-        Self {
+        let tablet = Tablet {
             model,
-            drift_ppm,
-            line: Line::new(BAUD, drift_ppm),
-            reached_ns: 0,
             deaf_until_ns: 0,
             parser: Parser::default(),
             settings: Settings::default(),
             channels: [None; CHANNELS],
             pending: VecDeque::new(),
             next_packet_ns: 0,
-            schedule: Schedule::default(),
             unknown: 0,
-        }
+        };
+        Self::around(tablet, BAUD, Parity::None, drift_ppm)
     }
 
     /// The speed it speaks and hears at now.
     pub fn baud(&self) -> u32 {
-        self.line.device_baud()
+        self.wire.baud()
     }
 
     /// Whether the host has switched reporting on and not off again.
     pub fn is_streaming(&self) -> bool {
-        self.settings.streaming
+        self.inside.settings.streaming
     }
 
     /// Commands that were not understood.
     pub fn unknown_commands(&self) -> u64 {
-        self.unknown
+        self.inside.unknown
     }
+}
 
-    fn catch_up(&mut self, now_us: u64) -> u64 {
-        let now_ns = (now_us * 1000).max(self.reached_ns);
-        self.advance(now_ns);
-        now_ns
-    }
-
-    /// Lets everything happen, in its order, that happens up to `to_ns`.
-    fn advance(&mut self, to_ns: u64) {
-        loop {
-            let slot = (self.settings.streaming && !self.pending.is_empty()).then(|| {
-                self.line
-                    .device_free_ns()
-                    .max(self.next_packet_ns)
-                    .max(self.reached_ns)
-            });
-            let events = [self.line.next_arrival_ns(), self.schedule.next_ns(), slot];
-            let Some(at_ns) = events.into_iter().flatten().min().filter(|&at| at <= to_ns) else {
-                break;
-            };
-            self.reached_ns = self.reached_ns.max(at_ns);
-            if let Some((at, byte)) = self.line.arrival(self.reached_ns) {
-                self.hear(at, byte);
-            } else if self.schedule.next_ns().is_some_and(|due| due <= self.reached_ns) {
-                if let Some(touch) = self.schedule.pop() {
-                    self.touch_now(&touch);
-                }
-            } else if let Some((channel, report)) = self.pending.pop_front() {
-                self.say(channel, report);
-            }
+impl Inside for Tablet {
+    fn hear(&mut self, wire: &mut Wire, byte: u8) {
+        if wire.now_ns() < self.deaf_until_ns {
+            return;
         }
-        self.reached_ns = self.reached_ns.max(to_ns);
+        if let Some(command) = self.parser.push(byte) {
+            self.obey(wire, command);
+        }
     }
 
-    fn say(&mut self, channel: u8, report: Report) {
-        let at_ns = self.reached_ns;
-        match report {
-            Report::Enter(tool) => self.line.device_sends(at_ns, &packet::enter(tool, channel)),
-            Report::Leave => self.line.device_sends(at_ns, &packet::leave(channel)),
-            Report::At(pointer) => {
+    fn next_ns(&self, wire: &Wire) -> Option<u64> {
+        let reports = self.settings.streaming && !self.pending.is_empty();
+        reports.then(|| wire.free_ns().max(self.next_packet_ns))
+    }
+
+    fn happen(&mut self, wire: &mut Wire) {
+        match self.pending.pop_front() {
+            Some((channel, Report::Enter(tool))) => wire.say(&packet::enter(tool, channel)),
+            Some((channel, Report::Leave)) => wire.say(&packet::leave(channel)),
+            Some((channel, Report::At(pointer))) => {
                 for packet in pointer.packets(channel, self.model.puck) {
-                    self.line.device_sends(at_ns, &packet);
+                    wire.say(&packet);
                 }
             }
+            None => return,
         }
         let interval_ns = u64::from(self.settings.interval) * INTERVAL_NS;
-        self.next_packet_ns = at_ns + shortened(interval_ns, self.drift_ppm);
+        self.next_packet_ns = wire.now_ns() + wire.span_ns(interval_ns);
     }
 
-    fn hear(&mut self, at_ns: u64, byte: u8) {
-        if at_ns < self.deaf_until_ns {
-            return;
+    fn touch(&mut self, _wire: &mut Wire, touch: &Touch) -> bool {
+        match touch {
+            Touch::Pen(pen) => self.hold(Held::Pen, Pointer::pen(pen, &self.model)),
+            Touch::Puck(puck) => self.hold(Held::Puck, Pointer::puck(puck, &self.model)),
+            Touch::Away => (0..CHANNELS).for_each(|channel| self.lift(channel)),
+            Touch::Lift(held) => {
+                if let Some(channel) = self.channel_of(*held) {
+                    self.lift(channel);
+                }
+            }
+            _ => return false,
         }
-        let Some(command) = self.parser.push(byte) else {
-            return;
-        };
+        true
+    }
+
+    fn lose_power(&mut self, wire: &mut Wire) {
+        self.reset(wire, RESET_BAUD_NS, BAUD);
+    }
+
+    fn controls(&self) -> Device {
+        Device::Tablet
+    }
+}
+
+impl Tablet {
+    fn obey(&mut self, wire: &mut Wire, command: Command) {
         match command {
-            Command::ResetBaud => self.reset(at_ns + RESET_BAUD_NS, BAUD),
+            Command::ResetBaud => self.reset(wire, RESET_BAUD_NS, BAUD),
             Command::Reset => {
-                let baud = self.line.device_baud();
-                self.reset(at_ns + RESET_NS, baud);
+                let baud = wire.baud();
+                self.reset(wire, RESET_NS, baud);
                 self.start();
             }
             Command::Identify => {
                 let answer = format!("~#{},V{}\r", self.model.text, self.model.version);
-                self.line.device_sends(at_ns, answer.as_bytes());
+                wire.say(answer.as_bytes());
             }
             Command::Resolution => {
                 let lines = self.model.counts_per_inch;
-                let answer = format!("~RE203C900,002,02,{lines},{lines}\r");
-                self.line.device_sends(at_ns, answer.as_bytes());
+                wire.say(format!("~RE203C900,002,02,{lines},{lines}\r").as_bytes());
             }
             Command::Size => {
                 let [x, y] = self.model.max;
-                self.line.device_sends(at_ns, format!("~C{x},{y}\r").as_bytes());
+                wire.say(format!("~C{x},{y}\r").as_bytes());
             }
             Command::Start => {
-                self.schedule.begin(at_ns);
+                wire.begin_script();
                 self.start();
             }
             Command::Stop => {
@@ -269,8 +264,8 @@ impl WacomV {
                 self.pending.clear();
             }
             Command::Baud(baud) if self.model.goes_to(baud) => {
-                self.line.set_device_baud(baud);
-                self.deaf_until_ns = at_ns + RESET_NS;
+                wire.set_baud(baud);
+                self.deaf_until_ns = wire.now_ns() + RESET_NS;
                 self.next_packet_ns = self.deaf_until_ns;
             }
             Command::TwoTools(on) => self.settings.two_tools = on,
@@ -291,35 +286,13 @@ impl WacomV {
         }
     }
 
-    fn reset(&mut self, deaf_until_ns: u64, baud: u32) {
-        self.deaf_until_ns = deaf_until_ns;
+    fn reset(&mut self, wire: &mut Wire, deaf_ns: u64, baud: u32) {
+        self.deaf_until_ns = wire.now_ns() + deaf_ns;
         self.settings = Settings::default();
         self.parser = Parser::default();
         self.pending.clear();
-        self.next_packet_ns = deaf_until_ns;
-        self.line.set_device_baud(baud);
-    }
-
-    fn touch_now(&mut self, touch: &Touch) -> bool {
-        match touch {
-            Touch::Pen(pen) => self.hold(Held::Pen, Pointer::pen(pen, &self.model)),
-            Touch::Puck(puck) => self.hold(Held::Puck, Pointer::puck(puck, &self.model)),
-            Touch::Away => (0..CHANNELS).for_each(|channel| self.lift(channel)),
-            Touch::Lift(held) => {
-                if let Some(channel) = self.channel_of(*held) {
-                    self.lift(channel);
-                }
-            }
-            Touch::PowerCycle => {
-                self.line.device_stops(self.reached_ns);
-                self.reset(self.reached_ns + RESET_BAUD_NS, BAUD);
-            }
-            Touch::Noise(bytes) => self.line.device_sends(self.reached_ns, &noise(*bytes)),
-            Touch::Dial { .. } | Touch::Button { .. } | Touch::Axis { .. } | Touch::Ring { .. } => {
-                return false;
-            }
-        }
-        true
+        self.next_packet_ns = self.deaf_until_ns;
+        wire.set_baud(baud);
     }
 
     fn channel_of(&self, held: Held) -> Option<usize> {
@@ -382,63 +355,6 @@ impl WacomV {
             }
             _ => self.pending.push_back((channel, report)),
         }
-    }
-}
-
-impl Firmware for WacomV {
-    fn receive(&mut self, now_us: u64, bytes: &[u8]) {
-        let now_ns = self.catch_up(now_us);
-        self.line.host_sends(now_ns, bytes);
-    }
-
-    fn transmit(&mut self, now_us: u64, out: &mut Vec<u8>) {
-        let now_ns = self.catch_up(now_us);
-        self.line.deliver(now_ns, out);
-    }
-
-    fn set_line_baud(&mut self, now_us: u64, baud: u32) {
-        self.catch_up(now_us);
-        self.line.set_host_baud(baud);
-    }
-
-    fn set_line_parity(&mut self, now_us: u64, parity: Parity) {
-        self.catch_up(now_us);
-        self.line.set_host_parity(parity);
-    }
-
-    fn next_byte_us(&self) -> Option<u64> {
-        self.line.next_delivery_ns().map(|ns| ns.div_ceil(1000))
-    }
-}
-
-impl Hands for WacomV {
-    fn touch(&mut self, now_us: u64, touch: &Touch) -> bool {
-        let now_ns = self.catch_up(now_us);
-        let touched = self.touch_now(touch);
-        self.advance(now_ns);
-        touched
-    }
-
-    fn reporting_since_us(&self) -> Option<u64> {
-        self.schedule.since_us()
-    }
-}
-
-impl SerialDevice for WacomV {
-    fn play(&mut self, script: &Script) {
-        self.schedule.play(script);
-    }
-
-    fn script_is_done(&self) -> bool {
-        self.schedule.is_done()
-    }
-
-    fn line(&self) -> (u32, Parity) {
-        (BAUD, Parity::None)
-    }
-
-    fn controls(&self) -> Device {
-        Device::Tablet
     }
 }
 

@@ -1,6 +1,9 @@
 //! Lines as the sketch prints them, at the pace of the wire.
 
 use super::*;
+use crate::firmware::Firmware;
+use crate::hands::Hands;
+use crate::script::Script;
 use proptest::prelude::*;
 
 fn steady(pots: u8) -> Options {

@@ -1,6 +1,7 @@
 //! The box against its independent readers, the wire's pace, and itself.
 
 use super::*;
+use crate::firmware::Firmware;
 use proptest::prelude::*;
 
 fn heard(dial_box: &mut SgiDialBox, now_us: u64) -> Vec<u8> {

@@ -1,6 +1,8 @@
 //! The board as the protocol's pages describe it, message by message.
 
 use super::*;
+use crate::firmware::Firmware;
+use crate::hands::Hands;
 use proptest::prelude::*;
 
 fn heard(board: &mut Firmata, now_us: u64) -> Vec<u8> {
@@ -18,7 +20,7 @@ fn ask(board: &mut Firmata, now_us: &mut u64, bytes: &[u8]) -> Vec<u8> {
 
 fn outputs(board: &mut Firmata) -> Vec<Output> {
     let mut shown = Vec::new();
-    board.drain_outputs(&mut |_, output| shown.push(output));
+    shown.extend(board.drain_outputs().map(|(_, output)| output));
     shown
 }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::usb_device::UsbFault;
+use crate::input_fault::InputFault;
 use crate::usb_device::pad::pen_at;
 
 fn bytes(tablet: &mut dyn UsbDevice, until_us: u64) -> Vec<Vec<u8>> {
@@ -137,7 +137,7 @@ fn strings_are_as_recorded_and_unknown_ones_are_nonsense_with_a_strings_length()
 fn a_frame_of_garbage_comes_between_two_good_ones() {
     let mut tablet = tablet(true);
     tablet.touch(0, &Touch::Pen(pen_at([1, 2], MAX)));
-    tablet.inject(2_000, UsbFault::Garbage);
+    tablet.inject(2_000, InputFault::Garbage);
     let first: Vec<u8> = bytes(&mut *tablet, 8_000).iter().map(|bytes| bytes[0]).collect();
     assert_eq!(first, [0x08, 0x78, 0x08]);
 }

@@ -1,7 +1,9 @@
 mod korg;
 
 use super::*;
+use crate::firmware::Firmware;
 use crate::hands::Turn;
+use crate::script::Script;
 
 /// A host with a box on its cable.
 struct Desk<P> {

@@ -1,7 +1,10 @@
 //! The tablet against the driver's conversation and packets worked out by hand.
 
 use super::*;
+use crate::firmware::Firmware;
+use crate::hands::Hands;
 use crate::hands::{Pen, Puck};
+use crate::script::Script;
 use proptest::prelude::*;
 
 fn heard(tablet: &mut SummagraphicsMm, now_us: u64) -> Vec<u8> {

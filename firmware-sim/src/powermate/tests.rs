@@ -1,6 +1,6 @@
 use super::*;
 use crate::hands::Turn;
-use crate::usb_device::UsbFault;
+use crate::input_fault::InputFault;
 
 fn listened() -> Box<dyn UsbDevice> {
     let mut knob = powermate();
@@ -122,7 +122,7 @@ fn the_lamp_is_set_three_ways_and_said_back() {
 #[test]
 fn a_flood_keeps_its_rate_and_ends() {
     let mut knob = listened();
-    let flood = UsbFault::parse("flood 8000Hz for 0.5s").expect("reads");
+    let flood = InputFault::parse("flood 8000Hz for 0.5s").expect("reads");
     knob.inject(0, flood);
     assert_eq!(reports(&mut *knob, 2_000_000).len(), 4000);
 }
@@ -160,7 +160,7 @@ fn without_its_cable_it_forgets_the_lamp_and_answers_nothing() {
 fn the_cable_comes_out_inside_any_step_of_a_conversation() {
     for step in 0..4 {
         let mut knob = listened();
-        knob.inject(0, UsbFault::UnplugAfterRequests(step));
+        knob.inject(0, InputFault::UnplugAfterRequests(step));
         let answers: Vec<bool> = (0..4).map(|n| knob.output(n, 0, &[n as u8]).is_ok()).collect();
         let want: Vec<bool> = (0..4).map(|n| n < step).collect();
         assert_eq!(answers, want);

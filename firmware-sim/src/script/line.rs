@@ -25,48 +25,31 @@ pub(super) fn parse(device: Device, text: &str) -> Result<Option<Action>, LineFa
     let at_us = micros(words.number("a time in seconds", 0.0, SECONDS_MAX)?);
     let column = words.column();
     let verb = words.any("an action")?;
-    let touch = match (device, verb) {
-        (_, "power-cycle") => Touch::PowerCycle,
-        (_, "noise") => Touch::Noise(words.whole("a number of bytes", 1u16, 1000)?),
-        (Device::Controls { dials, .. }, "dial") if dials > 0 => dial(&mut words, dials - 1)?,
-        (Device::Controls { buttons, .. }, "button") if buttons > 0 => button(&mut words, buttons - 1)?,
-        (Device::Controls { axes, .. }, "axis") if axes > 0 => axis(&mut words, axes - 1)?,
-        (Device::Pad { keys, .. }, "button") if keys > 0 => button(&mut words, keys - 1)?,
-        (Device::Pad { rings, .. }, "ring") if rings > 0 => ring(&mut words, rings - 1)?,
-        (Device::Tablet | Device::Pad { .. }, "pen") => pen(&mut words)?,
-        (Device::Tablet, "puck") => puck(&mut words)?,
+    let there = device.count(verb);
+    let touch = match verb {
+        "power-cycle" => Touch::PowerCycle,
+        "noise" => Touch::Noise(words.whole("a number of bytes", 1u16, 1000)?),
+        "dial" if there > 0 => dial(&mut words, there - 1)?,
+        "button" if there > 0 => button(&mut words, there - 1)?,
+        "axis" if there > 0 => axis(&mut words, there - 1)?,
+        "ring" if there > 0 => ring(&mut words, there - 1)?,
+        "pen" if there > 0 => pen(&mut words)?,
+        "puck" if there > 0 => puck(&mut words)?,
         _ => {
-            let known = actions(device).join(", ");
+            let known = ["dial", "pen", "puck", "button", "axis", "ring"];
+            let known: Vec<&str> = known
+                .into_iter()
+                .filter(|verb| device.count(verb) > 0)
+                .chain(["power-cycle"])
+                .collect();
             return Err(fault(
                 column,
-                format!("expected {known} or noise, found `{verb}`"),
+                format!("expected {} or noise, found `{verb}`", known.join(", ")),
             ));
         }
     };
     words.end()?;
     Ok(Some(Action { at_us, touch }))
-}
-
-/// What can be done to `device`, but for noise.
-fn actions(device: Device) -> Vec<&'static str> {
-    let mut known = match device {
-        Device::Tablet => vec!["pen", "puck"],
-        Device::Pad { keys, rings } => present(&[(1, "pen"), (keys, "button"), (rings, "ring")]),
-        Device::Controls { dials, buttons, axes } => {
-            present(&[(dials, "dial"), (buttons, "button"), (axes, "axis")])
-        }
-    };
-    known.push("power-cycle");
-    known
-}
-
-/// The words of what there is at least one of.
-fn present(counted: &[(u8, &'static str)]) -> Vec<&'static str> {
-    counted
-        .iter()
-        .filter(|&&(count, _)| count > 0)
-        .map(|&(_, verb)| verb)
-        .collect()
 }
 
 fn dial(words: &mut Words<'_>, last: u8) -> Result<Touch, LineFault> {

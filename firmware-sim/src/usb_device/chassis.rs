@@ -1,8 +1,8 @@
 //! What all simulated USB devices have in common: time, power, polls, scripts, faults. The rest is [`Inside`].
 
-use super::fault::Faults;
-use super::{Report, Request, Shown, Stall, UsbDevice, UsbFacts, UsbFault};
+use super::{Report, Request, Shown, Stall, UsbDevice, UsbFacts};
 use crate::hands::{Hands, Schedule, Touch};
+use crate::input_fault::{Faults, InputFault};
 use crate::script::Script;
 use std::collections::VecDeque;
 
@@ -113,7 +113,7 @@ pub(crate) struct Chassis<D> {
     schedule: Schedule,
     ready: VecDeque<(u64, Report)>,
     next_slot_us: u64,
-    faults: Faults,
+    faults: Faults<Report>,
     shown: Vec<(u64, Shown)>,
 }
 
@@ -194,7 +194,7 @@ impl<D: Inside> Chassis<D> {
         if !self.is_on_bus() || self.listened == 0 {
             return None;
         }
-        let due = self.inside.has_report() || self.faults.has_report();
+        let due = self.inside.has_report() || self.faults.has_early();
         let usual = due.then(|| self.next_slot_us.max(self.reached_us));
         usual.into_iter().chain(self.faults.flood_slot_us()).min()
     }
@@ -233,7 +233,9 @@ impl<D: Inside> Chassis<D> {
     fn report_now(&mut self) {
         let now_us = self.reached_us;
         let floods = self.faults.flood_begins_slot(now_us);
-        let report = self.faults.early().or_else(|| self.inside.take_report());
+        let interface = self.facts.main;
+        let early = self.faults.early().map(|bytes| Report { interface, bytes });
+        let report = early.or_else(|| self.inside.take_report());
         let report = report.or_else(|| floods.then(|| self.inside.same_again()).flatten());
         // What leaves nothing on the wire takes no slot of it.
         let Some(report) = report else { return };
@@ -256,8 +258,7 @@ impl<D: Inside> Chassis<D> {
             return true;
         }
         if let Touch::Noise(_) = touch {
-            self.faults
-                .add(self.reached_us, self.facts.main, UsbFault::Garbage);
+            self.faults.add(self.reached_us, InputFault::Garbage);
             return true;
         }
         at_a_moment!(self, at, self.inside.touch(&mut at, touch))
@@ -375,9 +376,9 @@ impl<D: Inside> UsbDevice for Chassis<D> {
         at_a_moment!(self, at, self.inside.request(&mut at, request, data))
     }
 
-    fn inject(&mut self, now_us: u64, fault: UsbFault) {
+    fn inject(&mut self, now_us: u64, fault: InputFault) {
         self.advance(now_us);
-        self.faults.add(self.reached_us, self.facts.main, fault);
+        self.faults.add(self.reached_us, fault);
     }
 
     fn play(&mut self, script: &Script) {

@@ -73,12 +73,13 @@ fn command(line: &[u8]) -> Command {
         (b"ST", None) if argument.is_empty() => Command::Start,
         (b"SP", None) if argument.is_empty() => Command::Stop,
         (b"OC", Some(on)) => Command::UpperOrigin(on != 0),
-        (b"ZF", Some(on)) => Command::Pressure(on != 0),
+        // A PenPartner has a word of its own for it.
+        (b"ZF" | b"PH", Some(on)) => Command::Pressure(on != 0),
         (b"FM", Some(on)) => Command::Tilt(on != 0),
         (b"IT", Some(units)) => Command::Interval(units),
         (b"SU", Some(counts)) => Command::Suppress(counts),
-        // Several tools at once, modes, increment, resolution, PenPartner's pressure, stream.
-        (b"MU" | b"~M" | b"IN" | b"NR" | b"PH", Some(_)) => Command::Accepted,
+        // Several tools at once, modes, increment, resolution, stream.
+        (b"MU" | b"~M" | b"IN" | b"NR", Some(_)) => Command::Accepted,
         (b"SR", None) if argument.is_empty() => Command::Accepted,
         _ => Command::Unknown,
     }

@@ -167,8 +167,10 @@ pub(super) fn packet(pointer: &Pointer, scale: &Scale, tilt: bool) -> ([u8; 9], 
         let clicks = pointer.wheel.clamp(-3, 3);
         bytes[6] = (clicks.unsigned_abs() as u8) << 4 | u8::from(clicks < 0) << 6;
     }
-    let lean = |degrees: i8| degrees.clamp(-64, 63) as u8 & 0x7F;
-    bytes[7] = lean(pointer.tilt_deg[0]);
-    bytes[8] = lean(pointer.tilt_deg[1]);
+    let lean = |degrees: i16| degrees.clamp(-64, 63) as u8 & 0x7F;
+    let [right, up] = pointer.tilt_deg.map(i16::from);
+    bytes[7] = lean(right);
+    // It counts the lean towards the user.
+    bytes[8] = lean(-up);
     (bytes, if tilt { 9 } else { 7 })
 }

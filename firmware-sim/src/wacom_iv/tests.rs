@@ -1,6 +1,8 @@
 //! The tablet against a driver's handshake, its packets by hand, and the wire's pace.
 
 use super::*;
+use crate::firmware::Firmware;
+use crate::hands::Hands;
 use crate::hands::{Pen, Puck};
 use proptest::prelude::*;
 
@@ -202,7 +204,7 @@ fn tilt_makes_nine_bytes_where_there_is_tilt() {
     tablet.touch(now, &pen);
     assert_eq!(
         ask(&mut tablet, &mut now, b"", 20_000),
-        [0xE0, 0, 0, 0x04, 0, 0, 0x3F, 0x76, 20]
+        [0xE0, 0, 0, 0x04, 0, 0, 0x3F, 0x76, 0x6C]
     );
     let mut tablet = WacomIv::new(graphire(), 0);
     let mut now = 0;

@@ -61,7 +61,9 @@ impl Pointer {
             wheel: 0,
             pen: Some((
                 (press * f64::from(PRESSURE_MAX)).round() as u16,
-                pen.tilt_deg.map(|lean| lean.clamp(-64, 63)),
+                // It counts the lean towards the user.
+                [i16::from(pen.tilt_deg[0]), -i16::from(pen.tilt_deg[1])]
+                    .map(|lean| lean.clamp(-64, 63) as i8),
             )),
         }
     }

@@ -1,6 +1,8 @@
 //! The tablet against the driver's conversation, and packets taken apart by the formulas of the driver's page.
 
 use super::*;
+use crate::firmware::Firmware;
+use crate::hands::Hands;
 use crate::hands::{Pen, Puck};
 use proptest::prelude::*;
 
@@ -106,7 +108,7 @@ fn a_pen_is_introduced_drawn_and_taken_away() {
     assert_eq!(report[0], 0xE4, "proximity, pen, side button 2");
     assert_eq!(place(report), [20_320, 16_240]);
     assert_eq!((report[5] & 7, report[6]), (7, 0x7F), "1023");
-    assert_eq!(report[7..], [0x40, 0x3F]);
+    assert_eq!(report[7..], [0x40, 0x41], "to the left, and away from the user");
     tablet.touch(now, &Touch::Lift(Held::Pen));
     assert_eq!(ask(&mut tablet, &mut now, &[]), [0x80, 0, 0, 0, 0, 0, 0, 0, 0]);
 }

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use device::transport::{self, Address, Transport, TransportError};
+use device_profiles::Line;
 use rig::{Found, InputSpec, Ports, PuppetSpec, Touch, TouchError};
 use serde::Deserialize;
 
@@ -93,6 +94,18 @@ impl Ports for MixedPorts {
         match address.parse::<Address>()? {
             Address::Sim(_) => self.sim.open(address, baud),
             real => transport::open(&real, baud),
+        }
+    }
+
+    fn open_input(
+        &mut self,
+        address: &str,
+        line: Option<&Line>,
+    ) -> Result<Box<dyn Transport>, TransportError> {
+        match (address.parse::<Address>()?, line) {
+            (Address::Sim(_), line) => self.sim.open_input(address, line),
+            (Address::Path(path), Some(line)) => Ok(Box::new(transport::serial::open_line(&path, line)?)),
+            (real, line) => transport::open(&real, line.map_or(0, |line| line.baud)),
         }
     }
 

@@ -126,7 +126,8 @@ fn wanted(profile: &InputProfile) -> Vec<Seen> {
             Touch::Pen(pen) => {
                 let [x, y] = place(pen.x, pen.y);
                 let pressure = (pen.pressure * f64::from(profile.area().pressure)).round() as u16;
-                let tilt = tilted.then_some(pen.tilt_deg);
+                // The tablet counts y towards the user.
+                let tilt = tilted.then_some([pen.tilt_deg[0], -pen.tilt_deg[1]]);
                 let (tip, buttons) = (pen.tip, pen.buttons);
                 Seen {
                     end: if pen.eraser { End::Eraser } else { End::Pen },

@@ -23,6 +23,10 @@ pub enum Place {
 pub struct ServeLine {
     end: End,
     path: String,
+    /// Where a terminal that was pulled out comes back.
+    place: Place,
+    /// The device's own speed.
+    home_baud: u32,
     baud: u32,
 }
 
@@ -30,6 +34,8 @@ pub struct ServeLine {
 enum End {
     Pty(Pty),
     Tcp(TcpListener, Option<TcpTransport>),
+    /// The cable is out: what is said is lost.
+    Out,
 }
 
 impl ServeLine {
@@ -52,9 +58,33 @@ impl ServeLine {
                 (End::Tcp(listener, None), format!("tcp:{bound}"))
             }
         };
-        let line = Self { end, path, baud };
+        let place = match place {
+            // The port that the system chose stays.
+            Place::Tcp(_) => Place::Tcp(path.trim_start_matches("tcp:").to_owned()),
+            pty @ Place::Pty(_) => pty.clone(),
+        };
+        let line = Self {
+            end,
+            path,
+            place,
+            home_baud: baud,
+            baud,
+        };
         line.settle_baud();
         Ok(line)
+    }
+
+    /// Takes the cable out: whoever has the port open finds it gone, and nobody finds it.
+    pub(super) fn unplug(&mut self) {
+        self.end = End::Out;
+    }
+
+    /// Puts the cable back. A pseudo-terminal without a path of its own has another name then.
+    pub(super) fn plug(&mut self) -> Result<(), TransportError> {
+        if matches!(self.end, End::Out) {
+            *self = Self::open(&self.place.clone(), self.home_baud)?;
+        }
+        Ok(())
     }
 
     /// What other programs open, an address as dialrig takes them.
@@ -113,6 +143,7 @@ impl ServeLine {
                     other => other,
                 }
             }
+            End::Out => Ok(0),
         }
     }
 
@@ -120,7 +151,7 @@ impl ServeLine {
     pub(super) fn write(&mut self, bytes: &[u8]) -> Result<(), TransportError> {
         match &mut self.end {
             End::Pty(pty) => pty.write(bytes),
-            End::Tcp(_, None) => Ok(()),
+            End::Tcp(_, None) | End::Out => Ok(()),
             End::Tcp(_, client) => {
                 let gone = client.as_mut().is_some_and(|there| there.write(bytes).is_err());
                 if gone {
@@ -135,7 +166,7 @@ impl ServeLine {
         match &mut self.end {
             End::Pty(pty) => pty.wait(clock, until),
             End::Tcp(_, Some(client)) => client.wait(clock, until),
-            End::Tcp(_, None) => clock.sleep_until(until),
+            End::Tcp(_, None) | End::Out => clock.sleep_until(until),
         }
     }
 }

@@ -6,6 +6,7 @@
 
 mod bus;
 mod eeprom;
+mod late;
 mod line;
 mod orders;
 mod pace;
@@ -14,9 +15,10 @@ mod uhid;
 
 pub use bus::{BusPlan, Habits, ServoSpec, ServoSpecError};
 pub use eeprom::Eeprom;
+pub use late::LateFault;
 pub use line::{Place, ServeLine};
 pub use served::Served;
-pub use uhid::{NODE as UHID_NODE, UsbServed};
+pub use uhid::{NODE as UHID_NODE, UsbAudience, UsbServed};
 
 // What a served device is told with and tells, for programs that must not know the firmware itself.
 pub use firmware_sim::dial_box::Output;
@@ -32,6 +34,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use device::clock::Clock;
 use device::transport::TransportError;
+use device_profiles::{InputKind, Profiles};
 use pace::Pace;
 
 /// Something that a served device did or that was done to it. Times are microseconds since serving began.
@@ -81,6 +84,26 @@ const READ_BYTES: usize = 4096;
 /// How often servos' memories are looked at for changes worth keeping, microseconds.
 const KEEP_US: u64 = 1_000_000;
 
+/// The input devices that are simulated, by what `--kind` calls them: those on a line, and those on USB; tablets, or
+/// everything else.
+pub fn kinds(tablets: bool) -> (Vec<String>, Vec<String>) {
+    let profiles = Profiles::builtin();
+    let is_meant = |key: &str| {
+        let known = profiles.input(key).ok();
+        known.is_some_and(|profile| (profile.kind == InputKind::Tablet) == tablets)
+    };
+    let serial = profiles.inputs().filter(|profile| {
+        is_meant(&profile.key)
+            && firmware_sim::usb_kind(&profile.key).is_none()
+            && firmware_sim::serial_device(profile).is_some()
+    });
+    let serial = serial.map(|profile| profile.key.clone()).collect();
+    let usb = firmware_sim::USB_KINDS
+        .iter()
+        .filter(|kind| is_meant(kind.profile));
+    (serial, usb.map(|kind| kind.name.to_owned()).collect())
+}
+
 /// Serves `device` on `line` until `stop` is set. `orders` is asked for what somebody at the keyboard wants of it now.
 /// Does not print; `told` hears what happens.
 pub fn run(
@@ -102,6 +125,7 @@ pub fn run(
             device.firmware().set_line_baud(now_us, baud);
             told(Event::Baud(now_us, baud));
         }
+        device.strike(now_us);
         let count = line.read(&mut buffer)?;
         if let Some(bytes) = buffer.get(..count).filter(|bytes| !bytes.is_empty()) {
             device.firmware().receive(now_us, bytes);
@@ -115,7 +139,11 @@ pub fn run(
             told(Event::DeviceWrote(now_us, &due));
         }
         while let Some(order) = orders() {
-            match device.order(now_us, &order) {
+            let done = match orders::Cable::of(&order).filter(|_| matches!(device, Served::Input(..))) {
+                Some(cable) => cable.move_it(line, device, now_us),
+                None => device.order(now_us, &order),
+            };
+            match done {
                 Ok(said) => told(Event::Obeyed(now_us, &said)),
                 Err(why) => told(Event::Refused(now_us, &why)),
             }

@@ -2,22 +2,17 @@
 
 use device_profiles::InputProfile;
 use firmware_sim::dial_box::Output;
-use firmware_sim::hands::Hands;
-use firmware_sim::script::{self, ScriptError};
-use firmware_sim::wacom_iv::Model;
-use firmware_sim::{Firmware, Script, SerialDevice, ServoBus, SgiDialBox, WacomIv};
+use firmware_sim::script::ScriptError;
+use firmware_sim::{Firmware, Script, SerialDevice, ServoBus};
 
 use super::ServeError;
 use super::eeprom::Eeprom;
+use super::late::{LateFault, LateFaults};
 
 /// A simulated device ready to be served.
 pub enum Served {
-    /// Dials and keys.
-    DialBox(Box<SgiDialBox>),
-    /// Pen and puck.
-    Tablet(Box<WacomIv>),
-    /// Any other input device on a serial line.
-    Serial(Box<dyn SerialDevice>),
+    /// An input device, and the faults that are still to come.
+    Input(Box<dyn SerialDevice>, LateFaults),
     /// Servos, at a line speed, with memories that are kept if a folder is given.
     Bus(Box<ServoBus>, u32, Option<Eeprom>),
 }
@@ -26,52 +21,52 @@ impl Served {
     /// The input device a profile describes, switched on; none where nothing of its format is simulated. A board that
     /// restarts when its port opens begins by booting: who opens a pseudo-terminal later is not seen.
     pub fn input(profile: &InputProfile) -> Option<Self> {
-        Some(match profile.format.as_str() {
-            "sgi-dial-box" => Self::DialBox(Box::new(SgiDialBox::new(profile.into()))),
-            "wacom-iv" => Self::Tablet(Box::new(WacomIv::new(Model::from(profile), 0))),
-            _ => {
-                let mut device = firmware_sim::serial_device(profile)?;
-                device.port_opened(0);
-                Self::Serial(device)
-            }
-        })
+        let mut device = firmware_sim::serial_device(profile)?;
+        device.port_opened(0);
+        Some(Self::Input(device, LateFaults::default()))
     }
 
     /// Reads a script for this device; a bus has none.
     pub fn script(&self, text: &str) -> Result<Script, Vec<ScriptError>> {
         match self {
-            Self::DialBox(_) => Script::parse(script::Device::DIAL_BOX, text),
-            Self::Tablet(_) => Script::parse(script::Device::Tablet, text),
-            Self::Serial(device) => Script::parse(device.controls(), text),
+            Self::Input(device, _) => Script::parse(device.controls(), text),
             Self::Bus(..) => Ok(Script::default()),
         }
     }
 
     pub(super) fn firmware(&mut self) -> &mut dyn Firmware {
         match self {
-            Self::DialBox(dial_box) => &mut **dial_box,
-            Self::Tablet(tablet) => &mut **tablet,
-            Self::Serial(device) => &mut **device,
+            Self::Input(device, _) => &mut **device,
             Self::Bus(bus, ..) => &mut **bus,
+        }
+    }
+
+    /// Brings a fault in when its time has come; a bus has faults of its own.
+    pub fn fault(&mut self, fault: LateFault) {
+        if let Self::Input(_, late) = self {
+            late.add(fault);
+        }
+    }
+
+    pub(super) fn strike(&mut self, now_us: u64) {
+        if let Self::Input(device, late) = self {
+            while let Some(fault) = late.take(device.reporting_since_us(), now_us) {
+                device.inject(now_us, fault);
+            }
         }
     }
 
     /// Plays a script; a bus has no hands on it and plays nothing.
     pub fn play(&mut self, script: &Script) {
-        match self {
-            Self::DialBox(dial_box) => dial_box.play(script),
-            Self::Tablet(tablet) => tablet.play(script),
-            Self::Serial(device) => device.play(script),
-            Self::Bus(..) => {}
+        if let Self::Input(device, _) = self {
+            device.play(script);
         }
     }
 
     /// The device's own line speed.
     pub fn baud(&self) -> u32 {
         match self {
-            Self::DialBox(_) => firmware_sim::dial_box::BAUD,
-            Self::Tablet(_) => firmware_sim::wacom_iv::BAUD,
-            Self::Serial(device) => device.line().0,
+            Self::Input(device, _) => device.line().0,
             Self::Bus(_, baud, _) => *baud,
         }
     }
@@ -80,9 +75,7 @@ impl Served {
     /// one has little time left; of the slow lines, each byte.
     pub(super) fn wakes_us(&self, now_us: u64) -> Option<u64> {
         match self {
-            Self::DialBox(dial_box) => dial_box.next_byte_us(),
-            Self::Tablet(tablet) => tablet.next_byte_us(),
-            Self::Serial(device) => device.next_byte_us(),
+            Self::Input(device, _) => device.next_byte_us(),
             Self::Bus(bus, ..) => {
                 let next_us = bus.next_byte_us()?;
                 let answer_us = bus.statuses().last().map(|answer| answer.last_us + 1);
@@ -93,18 +86,9 @@ impl Served {
 
     /// Takes what the host has made the device show, with the time since reporting began.
     pub(super) fn drain_outputs(&mut self, take: &mut dyn FnMut(u64, &Output)) {
-        match self {
-            Self::DialBox(dial_box) => {
-                let since_us = dial_box.reporting_since_us().unwrap_or(u64::MAX);
-                for (at_us, output) in dial_box.drain_outputs() {
-                    take(at_us.saturating_sub(since_us), &output);
-                }
-            }
-            Self::Serial(device) => {
-                let since_us = device.reporting_since_us().unwrap_or(u64::MAX);
-                device.drain_outputs(&mut |at_us, output| take(at_us.saturating_sub(since_us), &output));
-            }
-            Self::Tablet(_) | Self::Bus(..) => {}
+        if let Self::Input(device, _) = self {
+            let since_us = device.reporting_since_us().unwrap_or(u64::MAX);
+            device.take_outputs(&mut |at_us, output| take(at_us.saturating_sub(since_us), &output));
         }
     }
 

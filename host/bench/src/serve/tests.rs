@@ -1,3 +1,4 @@
+use super::late::LateFaults;
 use super::*;
 use device::clock::MonotonicClock;
 use device::transport::{self, Address, Transport};
@@ -206,8 +207,61 @@ fn orders_are_faults_hands_and_two_words() {
             .is_some_and(|line| line.contains(" 20.00 deg")),
         "{lines}"
     );
-    let mut dials = Served::DialBox(Box::new(SgiDialBox::new(Options::default())));
-    assert!(dials.order(0, "mend").is_err());
+}
+
+fn dial_box(options: Options) -> Served {
+    Served::Input(Box::new(SgiDialBox::new(options)), LateFaults::default())
+}
+
+#[test]
+fn hands_and_faults_may_be_asked_for_while_a_box_runs() {
+    let mut dials = dial_box(Options::default());
+    dials.firmware().receive(0, &[0x20, 0x50, 0, 0xFF]);
+    let mut heard = Vec::new();
+    dials.firmware().transmit(20_000, &mut heard);
+    assert_eq!(dials.order(20_000, "drop 1"), Ok("drop 1".to_owned()));
+    assert_eq!(dials.order(20_000, " dial 2 +5 "), Ok("dial 2 +5".to_owned()));
+    dials.firmware().transmit(60_000, &mut heard);
+    assert_eq!(heard, [0x20], "the report of the turn was dropped");
+    assert!(dials.order(60_000, "dial 2 +1").is_ok());
+    dials.firmware().transmit(100_000, &mut heard);
+    assert_eq!(heard, [0x20, 0x32, 0, 6]);
+    for (order, why) in [
+        ("mend", "an order is"),
+        ("dial 8 +1", "0 to 7"),
+        ("unplug after 2", "type `unplug`"),
+    ] {
+        let refused = dials.order(100_000, order).expect_err(order);
+        assert!(refused.contains(why), "{refused}");
+    }
+}
+
+#[test]
+fn a_cable_that_is_pulled_out_is_gone_and_back_under_its_name() {
+    let folder = std::env::temp_dir().join(format!("dialrig-cable-{}", std::process::id()));
+    let mut line = ServeLine::open(&Place::Pty(Some(folder.clone())), 9600).expect("opens");
+    let mut box_there = dial_box(Options::default());
+    let mut port = open(&folder.display().to_string(), 9600);
+    let pull = |order: &str, line: &mut ServeLine, device: &mut Served| {
+        orders::Cable::of(order).expect("one").move_it(line, device, 0)
+    };
+    assert_eq!(
+        pull("unplug", &mut line, &mut box_there),
+        Ok("unplugged".to_owned())
+    );
+    assert!(!folder.exists());
+    assert!(port.read(&mut [0; 8]).is_err_and(|error| error.is_gone()));
+    assert!(
+        line.read(&mut [0; 8]).is_ok_and(|count| count == 0),
+        "the device lives on"
+    );
+    assert_eq!(
+        pull("plug", &mut line, &mut box_there),
+        Ok("plugged in".to_owned())
+    );
+    let mut again = open(&folder.display().to_string(), 9600);
+    line.write(&[0x20]).expect("somebody listens");
+    assert_eq!(hear(&mut *again, 1), [0x20]);
 }
 
 /// CRC-16 of the protocol page, bit by bit: polynomial 8005, nothing reflected.
@@ -229,7 +283,7 @@ fn a_dial_box_plays_its_script_and_tells_what_it_is_shown() {
         labels: true,
         ..Options::default()
     };
-    let mut device = Served::DialBox(Box::new(SgiDialBox::new(options)));
+    let mut device = dial_box(options);
     let script = firmware_sim::Script::parse(firmware_sim::script::Device::DIAL_BOX, "at 0.05 dial 2 +5\n");
     device.play(&script.expect("reads"));
     let shown = serve(device, &Place::Pty(None), |path| {

@@ -13,7 +13,9 @@ use std::time::Duration;
 use device::clock::Clock;
 use firmware_sim::script::ScriptError;
 use firmware_sim::usb_device::{HidInterface, Shown, UsbFacts};
-use firmware_sim::{Script, USB_KINDS, UsbDevice, UsbKind, usb_kind};
+use firmware_sim::{InputFault, Script, USB_KINDS, UsbDevice, UsbKind, usb_kind};
+
+use super::late::{LateFault, LateFaults};
 
 /// Where the kernel takes devices.
 pub const NODE: &str = "/dev/uhid";
@@ -47,6 +49,19 @@ struct Node {
 pub struct UsbServed {
     kind: &'static UsbKind,
     device: Box<dyn UsbDevice>,
+    late: LateFaults,
+}
+
+/// Who speaks to a served device, and who hears of it.
+pub struct UsbAudience<'a> {
+    /// Called once its nodes are there.
+    pub ready: &'a mut dyn FnMut(),
+    /// What somebody at the keyboard wants of it now.
+    pub orders: &'a mut dyn FnMut() -> Option<String>,
+    /// Hears what it was made to show and when, microseconds since scripts count.
+    pub shown: &'a mut dyn FnMut(u64, &Shown),
+    /// Hears what came of an order and when, microseconds since it was served: what there is to say to it, or why not.
+    pub answered: &'a mut dyn FnMut(u64, &Result<String, String>),
 }
 
 impl UsbServed {
@@ -56,6 +71,7 @@ impl UsbServed {
         Some(Self {
             kind,
             device: (kind.make)(),
+            late: LateFaults::default(),
         })
     }
 
@@ -70,60 +86,103 @@ impl UsbServed {
         Ok(())
     }
 
-    /// Is one of the kernel's devices until `stop` is set. `told` hears what it was made to show and when,
-    /// microseconds since scripts count; `ready` is called once its nodes are there.
+    /// Brings a fault in when its time has come.
+    pub fn fault(&mut self, fault: LateFault) {
+        self.late.add(fault);
+    }
+
+    /// Is one of the kernel's devices until `stop` is set.
     pub fn run(
         &mut self,
         clock: &dyn Clock,
         stop: &AtomicBool,
-        ready: &mut dyn FnMut(),
-        told: &mut dyn FnMut(u64, &Shown),
+        audience: &mut UsbAudience<'_>,
     ) -> io::Result<()> {
-        run(&mut *self.device, clock, stop, ready, told)
+        let began = clock.now();
+        let mut nodes = Nodes::default();
+        let mut announced = false;
+        while !stop.load(Ordering::Relaxed) {
+            let now_us = clock.now().since(began).as_micros() as u64;
+            if nodes.follow(&mut *self.device, now_us)? && !std::mem::replace(&mut announced, true) {
+                (audience.ready)();
+            }
+            nodes.exchange(&mut *self.device, now_us)?;
+            while let Some(fault) = self.late.take(self.device.reporting_since_us(), now_us) {
+                self.device.inject(now_us, fault);
+            }
+            while let Some(order) = (audience.orders)() {
+                (audience.answered)(now_us, &self.order(now_us, order.trim()));
+            }
+            let since_us = self.device.reporting_since_us().unwrap_or(now_us);
+            for (at_us, shown) in self.device.drain_shown() {
+                (audience.shown)(at_us.saturating_sub(since_us), &shown);
+            }
+            clock.sleep_until(clock.now().after(LOOK));
+        }
+        Ok(())
+    }
+
+    /// A hand, a fault, or the cable.
+    fn order(&mut self, now_us: u64, order: &str) -> Result<String, String> {
+        if let "unplug" | "plug" = order {
+            self.device.plug(now_us, order == "plug");
+            return Ok(order.to_owned());
+        }
+        if let Ok(fault) = InputFault::parse(order) {
+            self.device.inject(now_us, fault);
+            return Ok(order.to_owned());
+        }
+        let script = super::orders::hand(self.kind.controls, order)?;
+        let touched = script
+            .actions
+            .iter()
+            .all(|action| self.device.touch(now_us, &action.touch));
+        let done = touched.then(|| order.to_owned());
+        done.ok_or_else(|| format!("`{order}`: it has no such control"))
     }
 }
 
-fn run(
-    device: &mut dyn UsbDevice,
-    clock: &dyn Clock,
-    stop: &AtomicBool,
-    ready: &mut dyn FnMut(),
-    told: &mut dyn FnMut(u64, &Shown),
-) -> io::Result<()> {
-    let began = clock.now();
-    let mut arrival = 0;
-    let mut nodes = Vec::new();
-    let mut announced = false;
-    let mut event = vec![0; EVENT_BYTES];
-    while !stop.load(Ordering::Relaxed) {
-        let now_us = clock.now().since(began).as_micros() as u64;
-        let now_arrival = device.arrival(now_us);
-        if now_arrival != arrival {
-            // Closing a node destroys its device.
-            nodes.clear();
-            arrival = now_arrival;
-            if arrival != 0 {
-                nodes = create(Path::new(NODE), device.facts())?;
-                if !std::mem::replace(&mut announced, true) {
-                    ready();
-                }
-            }
+/// The kernel's devices that a simulated one is.
+#[derive(Default)]
+struct Nodes {
+    all: Vec<Node>,
+    arrival: u32,
+    event: Vec<u8>,
+}
+
+impl Nodes {
+    /// Makes and destroys them as the device comes onto the bus and leaves it. True when it has come.
+    fn follow(&mut self, device: &mut dyn UsbDevice, now_us: u64) -> io::Result<bool> {
+        let arrival = device.arrival(now_us);
+        if arrival == self.arrival {
+            return Ok(false);
         }
-        for node in &mut nodes {
-            node.hear(device, now_us, &mut event)?;
+        // Closing a node destroys its device.
+        self.all.clear();
+        self.arrival = arrival;
+        if arrival == 0 {
+            return Ok(false);
+        }
+        self.event.resize(EVENT_BYTES, 0);
+        self.all = create(Path::new(NODE), device.facts())?;
+        Ok(true)
+    }
+
+    fn exchange(&mut self, device: &mut dyn UsbDevice, now_us: u64) -> io::Result<()> {
+        for node in &mut self.all {
+            node.hear(device, now_us, &mut self.event)?;
         }
         while let Some(report) = device.report(now_us) {
-            if let Some(node) = nodes.iter_mut().find(|node| node.interface == report.interface) {
+            if let Some(node) = self
+                .all
+                .iter_mut()
+                .find(|node| node.interface == report.interface)
+            {
                 node.say(&report.bytes)?;
             }
         }
-        let since_us = device.reporting_since_us().unwrap_or(now_us);
-        for (at_us, shown) in device.drain_shown() {
-            told(at_us.saturating_sub(since_us), &shown);
-        }
-        clock.sleep_until(clock.now().after(LOOK));
+        Ok(())
     }
-    Ok(())
 }
 
 fn put(event: &mut [u8], at: usize, bytes: &[u8]) {

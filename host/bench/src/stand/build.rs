@@ -5,15 +5,13 @@ use std::sync::{Arc, Mutex};
 
 use device::clock::Clock;
 use device_profiles::{InputProfile, ProfileError, Profiles, PuppetJoint, PuppetProfile, ServoProfile};
-use firmware_sim::dial_box::Options;
 use firmware_sim::servo_bus::{AddError, BusOptions, PlantKind, Sag, Unit};
-use firmware_sim::wacom_iv::Model;
-use firmware_sim::{ServoBus, SgiDialBox, WacomIv};
+use firmware_sim::{ServoBus, UsbKind, usb_kind};
 
-use super::seat::{Seat, Simulated};
+use super::Stand;
+use super::seat::{Measures, Seat, Simulated};
 use super::truth::Mount;
 use super::usb::UsbSeat;
-use super::{Stand, Surface};
 
 /// Why a bench cannot be set up.
 #[derive(Debug, thiserror::Error)]
@@ -110,36 +108,26 @@ impl StandBuilder {
 
     /// Adds the input device that `profile` describes as `sim:NAME`.
     pub fn input(self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
-        if firmware_sim::usb_kind(&profile.key).is_some() {
-            return self.usb(name, profile);
+        if let Some(kind) = usb_kind(&profile.key) {
+            return self.usb(name, profile, kind);
         }
-        let device = match profile.format.as_str() {
-            "sgi-dial-box" => {
-                let dial_box = SgiDialBox::new(Options::from(profile));
-                Simulated::DialBox(Box::new(dial_box), profile.counts_per_turn() as u32)
-            }
-            "wacom-iv" => {
-                let tablet = WacomIv::new(Model::from(profile), 0);
-                Simulated::Tablet(Box::new(tablet), Surface::from(profile))
-            }
-            format => {
-                let device =
-                    firmware_sim::serial_device(profile).ok_or_else(|| StandError::NotSimulated {
-                        profile: profile.key.clone(),
-                        format: format.to_owned(),
-                    })?;
-                Simulated::Serial(device, profile.surface.is_some().then(|| Surface::from(profile)))
-            }
-        };
-        self.seat(name, &profile.name, vec![profile.key.clone()], device)
-    }
-
-    /// Adds the USB input device that `profile` describes as `sim:NAME`.
-    pub fn usb(mut self, name: &str, profile: &InputProfile) -> Result<Self, StandError> {
-        let kind = firmware_sim::usb_kind(&profile.key).ok_or_else(|| StandError::NotSimulated {
+        let device = firmware_sim::serial_device(profile).ok_or_else(|| StandError::NotSimulated {
             profile: profile.key.clone(),
             format: profile.format.clone(),
         })?;
+        let device = Simulated::Input(device, Measures::from(profile));
+        self.seat(name, &profile.name, vec![profile.key.clone()], device)
+    }
+
+    /// Adds an input device of this kind as `sim:NAME`: one of [`firmware_sim::USB_KINDS`], or what a profile describes.
+    pub fn kind(self, name: &str, kind: &str, profiles: &Profiles) -> Result<Self, StandError> {
+        match usb_kind(kind) {
+            Some(kind) => self.usb(name, profiles.input(kind.profile)?, kind),
+            None => self.input(name, profiles.input(kind)?),
+        }
+    }
+
+    fn usb(mut self, name: &str, profile: &InputProfile, kind: &UsbKind) -> Result<Self, StandError> {
         let seat = UsbSeat::new(name, profile, (kind.make)());
         let before = self.usb.insert(name.to_owned(), Arc::new(Mutex::new(seat)));
         if before.is_some() || self.seats.contains_key(name) {

@@ -20,11 +20,12 @@ use device::clock::Clock;
 use firmware_sim::Fault;
 use firmware_sim::hands::Touch;
 use firmware_sim::servo_bus::FaultError;
-use firmware_sim::usb_device::{Shown as UsbShown, UsbFault, UsbFaultError};
+use firmware_sim::usb_device::Shown as UsbShown;
+use firmware_sim::{InputFault, InputFaultError};
 
 pub use build::{Horn, PuppetPlan, StandBuilder, StandError};
 pub use ports::SimPorts;
-use seat::{Seat, Simulated};
+use seat::{Measures, Seat, Simulated};
 pub use seat::{Shown, Traffic};
 pub use surface::Surface;
 pub use transport::SimTransport;
@@ -87,11 +88,11 @@ pub enum HandError {
         /// What is missing.
         why: String,
     },
-    /// The text names no fault of USB devices.
+    /// The text names no fault of input devices.
     #[error("fault: {source}")]
-    UsbFault {
+    InputFault {
         /// What is wrong with it.
-        source: UsbFaultError,
+        source: InputFaultError,
     },
     /// The text names no fault.
     #[error("fault \"{text}\": {source}")]
@@ -110,6 +111,18 @@ pub struct Stand {
     seats: Arc<BTreeMap<String, Arc<Mutex<Seat>>>>,
     usb: Arc<BTreeMap<String, Arc<Mutex<UsbSeat>>>>,
     mounts: Arc<Vec<Mount>>,
+}
+
+/// What a USB device was last made to show, in words; nothing where that is darkness.
+fn usb_words(shown: &UsbShown) -> Option<String> {
+    match *shown {
+        UsbShown::Level(0) | UsbShown::Lamp(false) => None,
+        UsbShown::Level(level) => Some(format!("level {level}")),
+        UsbShown::Lamp(true) => Some("lamp".to_owned()),
+        UsbShown::Pulse { awake, asleep, .. } => {
+            (awake || asleep).then(|| format!("pulse{}", if awake { "" } else { " asleep" }))
+        }
+    }
 }
 
 pub(crate) fn lock<S>(seat: &Mutex<S>) -> MutexGuard<'_, S> {
@@ -223,18 +236,35 @@ impl Stand {
         }
     }
 
-    /// Brings a fault onto a USB device, named as in `docs/simulators.md`.
-    pub fn usb_fault(&self, name: &str, text: &str) -> Result<(), HandError> {
-        let fault = UsbFault::parse(text).map_err(|source| HandError::UsbFault { source })?;
+    /// Brings a fault onto an input device, named as in `docs/simulators.md`. A fault that names none is refused.
+    pub fn input_fault(&self, name: &str, text: &str) -> Result<(), HandError> {
+        let fault = InputFault::parse(text).map_err(|source| HandError::InputFault { source })?;
         let now_us = self.now_us();
-        let Some(mut usb) = self.usb_seat(name) else {
-            return Err(HandError::NoSuchControl {
-                name: name.to_owned(),
-                control: "USB plug".to_owned(),
-            });
-        };
-        usb.inject(now_us, fault);
-        Ok(())
+        if let Some(mut usb) = self.usb_seat(name) {
+            usb.inject(now_us, fault);
+            return Ok(());
+        }
+        if self.seat(name)?.inject(now_us, fault) {
+            return Ok(());
+        }
+        Err(HandError::NoSuchControl {
+            name: name.to_owned(),
+            control: "input device's cable".to_owned(),
+        })
+    }
+
+    /// Whether a name is that of a bus.
+    pub fn is_bus(&self, name: &str) -> bool {
+        self.seat(name)
+            .is_ok_and(|seat| matches!(seat.device, Simulated::Bus(_)))
+    }
+
+    /// Each thing that an input device shows now, in words: `lamp 3`, `label 2 TIME`, `ring 0 lamps 4 5`, `level 128`.
+    pub fn shows(&self, name: &str) -> Result<Vec<String>, HandError> {
+        match self.usb_seat(name) {
+            Some(mut usb) => Ok(usb.shown().last().into_iter().filter_map(usb_words).collect()),
+            None => Ok(self.seat(name)?.shown.words()),
+        }
     }
 
     /// What a dial box shows; nothing for other devices.
@@ -242,21 +272,21 @@ impl Stand {
         Ok(self.seat(name)?.shown.clone())
     }
 
-    /// Counts in a turn of a dial box's dials; none for other devices.
+    fn measures(&self, name: &str) -> Result<Measures, HandError> {
+        match self.usb_seat(name) {
+            Some(usb) => Ok(usb.measures),
+            None => Ok(self.seat(name)?.measures()),
+        }
+    }
+
+    /// Counts in a turn of a device's dials; none for one without dials.
     pub fn counts_per_turn(&self, name: &str) -> Result<Option<u32>, HandError> {
-        Ok(match &self.seat(name)?.device {
-            Simulated::DialBox(_, counts) => Some(*counts),
-            _ => None,
-        })
+        Ok(self.measures(name)?.counts_per_turn)
     }
 
     /// A tablet's active area; none for other devices.
     pub fn surface(&self, name: &str) -> Result<Option<Surface>, HandError> {
-        Ok(match &self.seat(name)?.device {
-            Simulated::Tablet(_, surface) => Some(*surface),
-            Simulated::Serial(_, surface) => *surface,
-            _ => None,
-        })
+        Ok(self.measures(name)?.surface)
     }
 
     fn with_bus<T>(
@@ -267,7 +297,7 @@ impl Stand {
         let now_us = self.now_us();
         match &mut self.seat(name)?.device {
             Simulated::Bus(bus) => Ok(act(bus, now_us)),
-            _ => Err(HandError::NotABus {
+            Simulated::Input(..) => Err(HandError::NotABus {
                 name: name.to_owned(),
                 buses: self.buses().collect::<Vec<_>>().join(", "),
             }),

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use device::transport::{Transport, TransportError};
+use device_profiles::{Line, Parity as ProfileParity};
+use firmware_sim::Parity;
 use firmware_sim::hands::{Puck, Touch as Hand, Turn};
 use rig::{Found, Ports, Touch, TouchError};
 
@@ -48,6 +50,35 @@ impl Ports for SimPorts {
     }
 
     fn open(&mut self, address: &str, baud: u32) -> Result<Box<dyn Transport>, TransportError> {
+        self.open_at(address, baud, Parity::None)
+    }
+
+    fn open_input(
+        &mut self,
+        address: &str,
+        line: Option<&Line>,
+    ) -> Result<Box<dyn Transport>, TransportError> {
+        let baud = line.map_or(0, |line| line.baud);
+        let parity = match line.map(|line| line.parity) {
+            None | Some(ProfileParity::None) => Parity::None,
+            Some(ProfileParity::Odd) => Parity::Odd,
+            Some(ProfileParity::Even) => Parity::Even,
+        };
+        self.open_at(address, baud, parity)
+    }
+
+    fn touch(&mut self, address: &str, touch: &Touch) -> Result<(), TouchError> {
+        self.lay_hand(address, touch)
+    }
+}
+
+impl SimPorts {
+    fn open_at(
+        &mut self,
+        address: &str,
+        baud: u32,
+        parity: Parity,
+    ) -> Result<Box<dyn Transport>, TransportError> {
         let not_found = || TransportError::NotFound {
             address: address.to_owned(),
         };
@@ -58,7 +89,9 @@ impl Ports for SimPorts {
             return Ok(Box::new(reports));
         }
         let seat = self.stand.seats.get(name).ok_or_else(not_found)?;
-        let opening = lock(seat).open(self.stand.now_us(), baud).ok_or_else(not_found)?;
+        let opening = lock(seat)
+            .open(self.stand.now_us(), baud, parity)
+            .ok_or_else(not_found)?;
         let clock = Arc::clone(&self.stand.clock);
         Ok(Box::new(SimTransport::new(
             address.to_owned(),
@@ -68,7 +101,7 @@ impl Ports for SimPorts {
         )))
     }
 
-    fn touch(&mut self, address: &str, touch: &Touch) -> Result<(), TouchError> {
+    fn lay_hand(&self, address: &str, touch: &Touch) -> Result<(), TouchError> {
         let hand = match *touch {
             Touch::Cable { connected } => {
                 return self

@@ -5,31 +5,48 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use device_profiles::{ControlClass, InputProfile};
+use firmware_sim::Parity;
 use firmware_sim::dial_box::Output;
-use firmware_sim::hands::{Hands, Touch};
+use firmware_sim::hands::Touch;
 use firmware_sim::midi_box::Glow;
 use firmware_sim::servo_bus::StatusSent;
-use firmware_sim::{Firmware, MidiShown, SerialDevice, ServoBus, SgiDialBox, WacomIv};
+use firmware_sim::{Firmware, InputFault, MidiShown, SerialDevice, ServoBus};
 
 use super::surface::Surface;
 
 /// What a seat holds.
 pub(crate) enum Simulated {
-    /// Dials and keys, with the counts of a dial's turn.
-    DialBox(Box<SgiDialBox>, u32),
-    /// Pen and puck, with the active area.
-    Tablet(Box<WacomIv>, Surface),
-    /// Any other input device on a serial line, with the active area of a tablet.
-    Serial(Box<dyn SerialDevice>, Option<Surface>),
+    /// An input device on a serial line.
+    Input(Box<dyn SerialDevice>, Measures),
     /// Servos on one line.
     Bus(Box<ServoBus>),
+}
+
+/// What hands must know of an input device to move it by other measures than its own.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Measures {
+    /// Counts in a turn of its dials, where it has any.
+    pub(crate) counts_per_turn: Option<u32>,
+    /// The active area of a tablet.
+    pub(crate) surface: Option<Surface>,
+}
+
+impl From<&InputProfile> for Measures {
+    fn from(profile: &InputProfile) -> Self {
+        let turns = profile.count(ControlClass::Dial) > 0;
+        Self {
+            counts_per_turn: turns.then(|| profile.counts_per_turn() as u32),
+            surface: profile.surface.is_some().then(|| Surface::from(profile)),
+        }
+    }
 }
 
 /// What a dial box shows, as the eye sees it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Shown {
     /// Lit lamps, bit n for button n.
-    pub lamps: u32,
+    pub lamps: u64,
     /// Texts by control (0–7 dials, 8–19 keys 1–12), without the padding.
     pub labels: BTreeMap<u8, String>,
     /// Lit lamps around dials by dial, bit 0 the leftmost.
@@ -39,11 +56,30 @@ pub struct Shown {
 }
 
 impl Shown {
+    /// Each thing that is lit or written, in words: `lamp 3`, `label 2 TIME`, `ring 0 lamps 4 5`, `lamp 8 red 3 green 0`.
+    pub fn words(&self) -> Vec<String> {
+        let lamps = (0..64).filter(|lamp| self.lamps >> lamp & 1 == 1);
+        let mut words: Vec<String> = lamps.map(|lamp| format!("lamp {lamp}")).collect();
+        let written = self.labels.iter().filter(|(_, text)| !text.is_empty());
+        words.extend(written.map(|(control, text)| format!("label {control} {text}")));
+        for (dial, &mask) in self.rings.iter().filter(|&(_, &mask)| mask != 0) {
+            let lit: Vec<String> = (0..16)
+                .filter(|lamp| mask >> lamp & 1 == 1)
+                .map(|lamp| lamp.to_string())
+                .collect();
+            words.push(format!("ring {dial} lamps {}", lit.join(" ")));
+        }
+        for (index, [red, green]) in self.colours.iter().filter(|(_, colour)| **colour != [0, 0]) {
+            words.push(format!("lamp {index} red {red} green {green}"));
+        }
+        words
+    }
+
     /// Blinking counts as lit.
     fn see(&mut self, output: MidiShown) {
         match output {
             MidiShown::Lamp { control, glow } => {
-                let bit = 1_u32.checked_shl(control.into()).unwrap_or(0);
+                let bit = 1_u64.checked_shl(control.into()).unwrap_or(0);
                 self.lamps = match glow {
                     Glow::Off => self.lamps & !bit,
                     Glow::On | Glow::Blinking => self.lamps | bit,
@@ -109,9 +145,7 @@ impl Seat {
 
     pub(crate) fn firmware(&mut self) -> &mut dyn Firmware {
         match &mut self.device {
-            Simulated::DialBox(dial_box, _) => &mut **dial_box,
-            Simulated::Tablet(tablet, _) => &mut **tablet,
-            Simulated::Serial(device, _) => &mut **device,
+            Simulated::Input(device, _) => &mut **device,
             Simulated::Bus(bus) => &mut **bus,
         }
     }
@@ -127,16 +161,14 @@ impl Seat {
         self.scratch = said;
         let shown = &mut self.shown;
         let mut see = |output: Output| match output {
-            Output::Lamps(lamps) => shown.lamps = lamps,
+            Output::Lamps(lamps) => shown.lamps = lamps.into(),
             Output::Label { control, text } => {
                 shown.labels.insert(control, text.trim_end().to_owned());
             }
             Output::Midi(output) => shown.see(output),
         };
-        match &mut self.device {
-            Simulated::DialBox(dial_box, _) => dial_box.drain_outputs().for_each(|(_, output)| see(output)),
-            Simulated::Serial(device, _) => device.drain_outputs(&mut |_, output| see(output)),
-            Simulated::Tablet(..) | Simulated::Bus(_) => {}
+        if let Simulated::Input(device, _) = &mut self.device {
+            device.take_outputs(&mut |_, output| see(output));
         }
     }
 
@@ -145,7 +177,7 @@ impl Seat {
     }
 
     /// Opens the port; whoever had it open before finds the device gone.
-    pub(crate) fn open(&mut self, now_us: u64, baud: u32) -> Option<u64> {
+    pub(crate) fn open(&mut self, now_us: u64, baud: u32, parity: Parity) -> Option<u64> {
         self.advance(now_us);
         if !self.connected {
             return None;
@@ -153,6 +185,7 @@ impl Seat {
         // What arrived before anybody listened is not kept by a port that was closed.
         self.inbox.clear();
         self.firmware().set_line_baud(now_us, baud);
+        self.firmware().set_line_parity(now_us, parity);
         self.firmware().port_opened(now_us);
         self.opening += 1;
         Some(self.opening)
@@ -214,10 +247,29 @@ impl Seat {
             self.shown = Shown::default();
         }
         match &mut self.device {
-            Simulated::DialBox(dial_box, _) => dial_box.touch(now_us, touch),
-            Simulated::Tablet(tablet, _) => tablet.touch(now_us, touch),
-            Simulated::Serial(device, _) => device.touch(now_us, touch),
+            Simulated::Input(device, _) => device.touch(now_us, touch),
             Simulated::Bus(_) => false,
+        }
+    }
+
+    /// Brings a fault onto an input device; false on a bus, which has faults of its own.
+    pub(crate) fn inject(&mut self, now_us: u64, fault: InputFault) -> bool {
+        self.advance(now_us);
+        match (&mut self.device, fault) {
+            (Simulated::Bus(_), _) => false,
+            (_, InputFault::UnplugAfterRequests(calls)) => {
+                self.fail_after(calls.into());
+                true
+            }
+            (Simulated::Input(device, _), fault) => device.inject(now_us, fault),
+        }
+    }
+
+    /// What hands must know of it.
+    pub(crate) fn measures(&self) -> Measures {
+        match &self.device {
+            Simulated::Input(_, measures) => *measures,
+            Simulated::Bus(_) => Measures::default(),
         }
     }
 

@@ -31,7 +31,9 @@ impl Table {
             .expect("simulated")
             .build();
         let mut ports = SimPorts::new(stand.clone());
-        let line = ports.open("sim:it", profile.baud()).expect("it is there");
+        let line = ports
+            .open_input("sim:it", profile.line.as_ref())
+            .expect("it is there");
         let device = Device::of_profile("it", profile, line).expect("its format is known");
         Self {
             clock,
@@ -192,7 +194,7 @@ fn the_cable_may_come_out_at_any_step_of_a_beginning() {
             table.stand.plug("it", true).expect("it is there");
             let line = table
                 .ports
-                .open("sim:it", PROFILES.input(kind).expect("shipped").baud())
+                .open_input("sim:it", PROFILES.input(kind).expect("shipped").line.as_ref())
                 .expect("it is back");
             table.device.reconnect(line);
             assert_eq!(table.pass(14.0), Health::Present, "{kind} after {calls} calls");

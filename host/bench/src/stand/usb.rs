@@ -8,11 +8,12 @@ use std::sync::{Arc, Mutex};
 use device::clock::{Clock, Instant};
 use device::transport::{Boundary, Transport, TransportError, WAIT_STEP};
 use device_profiles::InputProfile;
-use firmware_sim::UsbDevice;
 use firmware_sim::hands::Touch;
-use firmware_sim::usb_device::{Shown, Stall, UsbFault};
+use firmware_sim::usb_device::{Shown, Stall};
+use firmware_sim::{InputFault, UsbDevice};
 
 use super::lock;
+use super::seat::Measures;
 
 /// A USB device with its cable.
 pub(crate) struct UsbSeat {
@@ -20,6 +21,7 @@ pub(crate) struct UsbSeat {
     pub(crate) description: String,
     pub(crate) matches: Vec<String>,
     pub(crate) device: Box<dyn UsbDevice>,
+    pub(super) measures: Measures,
     shown: Vec<Shown>,
     /// Reads, writes and questions that still succeed before the cable comes out by itself.
     calls_left: Option<u64>,
@@ -34,6 +36,7 @@ impl UsbSeat {
             description: format!("simulated: {}", profile.name),
             matches: vec![profile.key.clone()],
             device,
+            measures: Measures::from(profile),
             shown: Vec::new(),
             calls_left: None,
             openings: 0,
@@ -56,7 +59,7 @@ impl UsbSeat {
         self.device.touch(now_us, touch)
     }
 
-    pub(super) fn inject(&mut self, now_us: u64, fault: UsbFault) {
+    pub(super) fn inject(&mut self, now_us: u64, fault: InputFault) {
         self.device.inject(now_us, fault);
     }
 

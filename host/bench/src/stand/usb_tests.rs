@@ -14,7 +14,7 @@ fn bench(devices: &[(&str, &str)]) -> (Arc<VirtualClock>, Stand, SimPorts) {
     let mut builder = Stand::builder(Arc::clone(&clock) as Arc<dyn Clock>);
     for (name, kind) in devices {
         let profile = profiles.input(kind).expect("shipped");
-        builder = builder.usb(name, profile).expect("simulated");
+        builder = builder.input(name, profile).expect("simulated");
     }
     let stand = builder.build();
     let ports = SimPorts::new(stand.clone());

@@ -241,7 +241,10 @@ impl Codec for WacomIv {
 
 fn surface_of(profile: &InputProfile) -> Surface {
     let area = profile.area();
-    Surface::flat(area.counts, area.per_inch(), area.pressure)
+    Surface {
+        tilt_steps_per_rad: area.tilt_steps_per_rad,
+        ..Surface::flat(area.counts, area.per_inch(), area.pressure)
+    }
 }
 
 #[cfg(test)]

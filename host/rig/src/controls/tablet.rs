@@ -144,9 +144,9 @@ impl Tablet {
 
 /// Tilt, twist, height and wheel, where the tool has them.
 fn beside(sample: &PenSample, surface: Surface, emit: &mut Emit<'_>) {
-    if let (Some(tilt), Some(steps)) = (sample.tilt, surface.tilt_steps_per_rad) {
-        let [x, y] = tilt.map(|it| (f64::from(it) / steps).to_degrees());
-        // Counts grow towards the user, the network's y away from him.
+    if let Some(tilt) = surface.tilt_rad(sample) {
+        let [x, y] = tilt.map(f64::to_degrees);
+        // A tablet's y points towards the user, the network's away from him.
         emit(8, Value::Vector2(DVec2::new(x, 0.0 - y)));
     }
     if let (Some(twist), Some(steps)) = (sample.twist, surface.twist_steps_per_turn) {

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use anyhow::{Context, ensure};
 use device::discovery::Access;
+use firmware_sim::InputFault;
 use firmware_sim::hands::{Touch, Turn};
-use firmware_sim::usb_device::UsbFault;
 
 use super::open::{
     answered, drained, find, find_one, open, opened, plugged, reports, touch, until_gone, until_open, with,
@@ -96,7 +96,7 @@ fn unplug_in_handshake(watch: &Watch) -> anyhow::Result<()> {
     for step in 0..3 {
         let mut line = opened(watch, "hs610")?;
         with(&cable, |device, now_us| {
-            device.inject(now_us, UsbFault::UnplugAfterRequests(step));
+            device.inject(now_us, InputFault::UnplugAfterRequests(step));
         });
         for index in [202, 201, 200] {
             // Refused, gone or answered: whichever, it must come back.
@@ -174,7 +174,7 @@ fn flood(watch: &Watch) -> anyhow::Result<()> {
     with(&cable, |device, now_us| {
         device.inject(
             now_us,
-            UsbFault::Flood {
+            InputFault::Flood {
                 hz: 8000,
                 for_us: 200_000,
             },

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bench::serve::{Event, Glow, MidiShown, Output, Served};
+use bench::serve::{Event, Glow, LateFault, MidiShown, Output, Served};
 use serde_json::json;
 
 use super::{PlaceArgs, Trace, serve, uhid};
@@ -33,12 +33,23 @@ A script has one action a line, seconds counted from when the host first switche
   at 0.7 puck 0.2 -0.4 button 1
   at 1 puck away";
 
+/// Examples, what may be typed, and every kind there is: of tablets, or of everything else.
+fn with_kinds(examples: &str, tablets: bool) -> String {
+    let (serial, usb) = bench::serve::kinds(tablets);
+    format!(
+        "{examples}\n\nWhile it runs, lines of a script without their time, faults, `unplug` and `plug` may be \
+         typed.\n\nKinds on a line (--pty, --tcp):\n  {}\nKinds on USB (--uhid):\n  {}",
+        serial.join(", "),
+        usb.join(", ")
+    )
+}
+
 /// A box of dials, faders and keys on a serial line
 ///
 /// The SGI box unless `--kind` says otherwise: silent until it is initialised, as the real one. deej and Firmata
 /// boards boot first.
 #[derive(Debug, clap::Args)]
-#[command(after_help = DIAL_BOX_EXAMPLES)]
+#[command(after_help = with_kinds(DIAL_BOX_EXAMPLES, false))]
 pub(crate) struct DialBoxArgs {
     /// Profile of a box; `sgi-dialbox-display` has labels
     #[arg(long, value_name = "NAME", default_value = "sgi-dialbox")]
@@ -49,7 +60,7 @@ pub(crate) struct DialBoxArgs {
 
 /// A serial tablet with pen and puck: Wacom IV or V, Summagraphics MM
 #[derive(Debug, clap::Args)]
-#[command(after_help = TABLET_EXAMPLES)]
+#[command(after_help = with_kinds(TABLET_EXAMPLES, true))]
 pub(crate) struct TabletArgs {
     /// Profile of a tablet
     #[arg(long, value_name = "NAME", default_value = "graphire-serial")]
@@ -65,6 +76,10 @@ struct Common {
     /// What hands do; `-` reads standard input
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
+    /// Something that goes wrong: `garbage`, `short`, `long`, `wrong`, `interleaved`, `drop 3`, `flood 8000Hz for 2s`;
+    /// with `at 2s` behind it so long after reporting began
+    #[arg(long, value_name = "TEXT", value_parser = LateFault::parse)]
+    fault: Vec<LateFault>,
     /// Writes down every byte
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
@@ -95,7 +110,7 @@ pub(super) fn tablet(args: &TabletArgs, console: &Console) -> Result<Exit, Failu
 
 fn input(kind: &str, args: &Common, console: &Console) -> Result<Exit, Failure> {
     if args.place.uhid {
-        return uhid::run(kind, args.script.as_deref(), console);
+        return uhid::run(kind, args.script.as_deref(), &args.fault, console);
     }
     let profiles = setup::profiles()?;
     let profile = profiles
@@ -125,6 +140,9 @@ fn play(mut device: Served, args: &Common, console: &Console) -> Result<Exit, Fa
             Failure::refused(lines.join("\n"))
         })?;
         device.play(&script);
+    }
+    for fault in &args.fault {
+        device.fault(fault.clone());
     }
     let mut trace = args.trace.as_ref().map(Trace::create).transpose()?;
     let place = PlaceArgs {

@@ -3,9 +3,11 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use bench::serve::{UHID_NODE, UsbServed, UsbShown};
+use bench::serve::{Event, LateFault, UHID_NODE, UsbAudience, UsbServed, UsbShown};
 use serde_json::json;
 
+use super::answer;
+use super::orders::Orders;
 use crate::console::Console;
 use crate::failure::{Exit, Failure};
 use crate::input;
@@ -17,7 +19,12 @@ pub(super) fn is_kind(kind: &str) -> bool {
 }
 
 /// Serves a device until Ctrl-C.
-pub(super) fn run(kind: &str, script: Option<&Path>, console: &Console) -> Result<Exit, Failure> {
+pub(super) fn run(
+    kind: &str,
+    script: Option<&Path>,
+    faults: &[LateFault],
+    console: &Console,
+) -> Result<Exit, Failure> {
     let mut device = UsbServed::of(kind).ok_or_else(|| {
         let known: Vec<_> = UsbServed::kinds().collect();
         Failure::refused(format!(
@@ -35,15 +42,26 @@ pub(super) fn run(kind: &str, script: Option<&Path>, console: &Console) -> Resul
             Failure::refused(lines.join("\n"))
         })?;
     }
+    for fault in faults {
+        device.fault(fault.clone());
+    }
     let interrupt = Interrupt::listen();
     let clock = rig::real_time();
-    let mut ready = || {
-        let _ = console
-            .line(format_args!("ready {kind}"))
-            .and_then(|()| console.flush());
+    let orders = Orders::listen();
+    let mut audience = UsbAudience {
+        ready: &mut || {
+            let _ = console
+                .line(format_args!("ready {kind}"))
+                .and_then(|()| console.flush());
+        },
+        orders: &mut || orders.next(),
+        shown: &mut |at_us, shown| tell(at_us, shown, console),
+        answered: &mut |at_us, done| match done {
+            Ok(said) => answer(Event::Obeyed(at_us, said), console),
+            Err(why) => answer(Event::Refused(at_us, why), console),
+        },
     };
-    let mut told = |at_us: u64, shown: &UsbShown| tell(at_us, shown, console);
-    let served = device.run(&*clock, interrupt.flag(), &mut ready, &mut told);
+    let served = device.run(&*clock, interrupt.flag(), &mut audience);
     served.map_err(|error| {
         let hint = match error.kind() {
             ErrorKind::NotFound => "; load it with `modprobe uhid`",
