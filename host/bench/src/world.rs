@@ -38,6 +38,9 @@ pub struct Equipment {
     pub knobs: Option<String>,
     /// Key of the tablet's profile; none: no tablet.
     pub tablet: Option<String>,
+    /// Any other input devices: what each is called on the bench, and of which kind it is ([`Stand`] knows them by the
+    /// names of their profiles).
+    pub devices: Vec<(String, String)>,
     /// Key of the puppet's profile; none: no puppet.
     pub puppet: Option<String>,
     /// How the puppet begins.
@@ -50,6 +53,7 @@ impl Default for Equipment {
         Self {
             knobs: Some(DIAL_BOX_PROFILE.to_owned()),
             tablet: Some(TABLET_PROFILE.to_owned()),
+            devices: Vec::new(),
             puppet: None,
             plan: PuppetPlan::default(),
         }
@@ -66,6 +70,9 @@ impl Equipment {
         if let Some(key) = &self.tablet {
             builder = builder.input(TABLET, profiles.input(key)?)?;
         }
+        for (name, kind) in &self.devices {
+            builder = builder.kind(name, kind, profiles)?;
+        }
         if let Some(key) = &self.puppet {
             builder = builder.puppet(profiles.puppet(key)?, profiles, &self.plan)?;
         }
@@ -74,16 +81,19 @@ impl Equipment {
 
     /// The input devices as a rig is told of them.
     pub fn inputs(&self) -> Vec<InputSpec> {
-        [(DIAL_BOX, &self.knobs), (TABLET, &self.tablet)]
+        let usual = [(DIAL_BOX, &self.knobs), (TABLET, &self.tablet)];
+        let usual = usual
             .into_iter()
-            .filter_map(|(name, key)| {
-                Some(InputSpec {
-                    name: name.to_owned(),
-                    profile: key.clone()?,
-                    address: format!("{SCHEME}{name}"),
-                })
-            })
-            .collect()
+            .filter_map(|(name, key)| Some((name, key.as_ref()?)));
+        let others = self.devices.iter().map(|(name, kind)| (name.as_str(), kind));
+        let spec = |(name, kind): (&str, &String)| InputSpec {
+            name: name.to_owned(),
+            profile: firmware_sim::usb_kind(kind)
+                .map_or(kind.as_str(), |kind| kind.profile)
+                .to_owned(),
+            address: format!("{SCHEME}{name}"),
+        };
+        usual.chain(others).map(spec).collect()
     }
 
     /// The puppet as a rig is told of it, ticked every `period`.

@@ -1,11 +1,12 @@
 //! What can be done in a scenario: hands, cables, orders, faults.
 
-use firmware_sim::Fault;
-use firmware_sim::hands::Turn;
+use firmware_sim::hands::{Touch, Turn};
+use firmware_sim::{Fault, InputFault};
 use rig::{Command, NetworkEdit, PuppetCommand, TransportCommand};
 
 use super::calibrating::Calibrate;
 use super::horn::HornHand;
+use super::input;
 use super::words::{Flaw, Parsed, Words};
 use crate::hands::{Movement, Tool};
 use crate::stand::HandError;
@@ -26,6 +27,7 @@ pub(super) const VERBS: &[&str] = &[
     "plug",
     "unplug",
     "power-cycle",
+    "touch",
     "perform",
     "transport",
     "fault",
@@ -52,9 +54,11 @@ pub(super) enum Doing {
     Plug { device: String, connected: bool },
     /// A device is switched off and on.
     PowerCycle { device: String },
+    /// A hand does something to an input device, in the words of its scripts.
+    Touch { device: String, touch: Touch },
     /// The rig is asked.
     Ask(Command),
-    /// Something goes wrong on a bus.
+    /// Something goes wrong on a bus or with an input device.
     Fault { bus: String, text: String },
     /// Everything on a bus is well again.
     Mend { bus: String },
@@ -100,6 +104,7 @@ impl Doing {
             "power-cycle" => Self::PowerCycle {
                 device: words.text("a device")?,
             },
+            "touch" => input::touch(words)?,
             "perform" => perform(words)?,
             "transport" => transport(words)?,
             "fault" => fault(words)?,
@@ -135,7 +140,9 @@ impl Doing {
         match self {
             Self::Hand(device, _) => Some(device),
             Self::Cursor { .. } => Some(TABLET),
-            Self::Plug { device, .. } | Self::PowerCycle { device } => Some(device),
+            Self::Plug { device, .. } | Self::PowerCycle { device } | Self::Touch { device, .. } => {
+                Some(device)
+            }
             Self::Fault { bus, .. } | Self::Mend { bus } => Some(bus),
             // Joints are found on the stand, or they are not there.
             Self::Push { .. }
@@ -166,12 +173,12 @@ impl Doing {
                 );
             }
             Self::Plug { device, connected } => world.stand().plug(device, *connected)?,
-            Self::PowerCycle { device } => {
-                world
-                    .stand()
-                    .touch(device, &firmware_sim::hands::Touch::PowerCycle)?;
-            }
+            Self::PowerCycle { device } => world.stand().touch(device, &Touch::PowerCycle)?,
+            Self::Touch { device, touch } => world.stand().touch(device, touch)?,
             Self::Ask(command) => commands.push(command.clone()),
+            Self::Fault { bus, text } if InputFault::parse(text).is_ok() && !world.stand().is_bus(bus) => {
+                world.stand().input_fault(bus, text)?;
+            }
             Self::Fault { bus, text } => world.stand().fault(bus, text)?,
             Self::Mend { bus } => world.stand().mend(bus)?,
             Self::Stall { secs } => world.stall(*secs),
@@ -315,8 +322,12 @@ fn fault(words: &mut Words<'_>) -> Parsed<Doing> {
         return Err(Flaw { column, message });
     };
     let (text, bus) = (text.trim_end(), bus.trim());
-    match Fault::parse(text) {
-        Ok(_) => Ok(Doing::Fault {
+    // Which of the two it is is known when it is done: both may bear the word.
+    match Fault::parse(text)
+        .map(|_| ())
+        .or_else(|flaw| InputFault::parse(text).map(|_| ()).map_err(|_| flaw))
+    {
+        Ok(()) => Ok(Doing::Fault {
             bus: bus.to_owned(),
             text: text.to_owned(),
         }),

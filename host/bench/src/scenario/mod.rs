@@ -9,6 +9,7 @@ mod calibrating;
 mod check;
 mod doing;
 mod horn;
+mod input;
 mod junit;
 mod parse;
 mod run;
@@ -54,6 +55,8 @@ struct Setting {
     puppet: Option<String>,
     knobs: Option<String>,
     tablet: Option<String>,
+    /// Further input devices by name and kind.
+    devices: Vec<(String, String)>,
     /// Network files loaded after the show's.
     scripts: Vec<PathBuf>,
     start_rad: BTreeMap<String, f64>,

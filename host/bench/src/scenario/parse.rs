@@ -114,7 +114,7 @@ impl Setting {
         loop {
             match words.one_of(&[
                 "show", "puppet", "knobs", "tablet", "script", "pose", "sag", "shafts", "stops", "horn",
-                "seed",
+                "device", "seed",
             ])? {
                 0 => self.show = Some(path(words)?),
                 1 => self.puppet = Some(words.text("a puppet profile")?),
@@ -142,6 +142,11 @@ impl Setting {
                     self.stops_rad.insert(joint, [low_rad, high_rad]);
                 }
                 9 => self.horn(words)?,
+                10 => {
+                    let name = words.text("a name for the device")?;
+                    self.devices
+                        .push((name, words.text("a profile or another kind")?));
+                }
                 _ => self.seed = words.whole("a seed", 0..=u64::from(u32::MAX))?,
             }
             if !words.take(",") {

@@ -8,6 +8,7 @@ use rig::document::{self, NetworkFile, Show};
 
 use super::check::{Check, Evidence};
 use super::doing::Doing;
+use super::input;
 use super::{Line, Scenario, What, When};
 use crate::dut::Dut;
 use crate::stand::{HandError, JointTruth};
@@ -122,10 +123,17 @@ fn begin(scenario: &Scenario, options: &RunOptions, seed: u64, dut: Option<&Dut>
             .into_owned();
         show.networks.push(Arc::new(NetworkFile { name, text }));
     }
+    if let Some((text, _)) = input::lookout(&scenario.lines) {
+        let name = "outputs that are looked at".to_owned();
+        show.networks.push(Arc::new(NetworkFile { name, text }));
+    }
     let usual = Equipment::default();
+    // Who names devices has those and no others.
+    let unasked = |usual: Option<String>| usual.filter(|_| setting.devices.is_empty());
     let mut equipment = Equipment {
-        knobs: setting.knobs.clone().or(usual.knobs),
-        tablet: setting.tablet.clone().or(usual.tablet),
+        knobs: setting.knobs.clone().or(unasked(usual.knobs)),
+        tablet: setting.tablet.clone().or(unasked(usual.tablet)),
+        devices: setting.devices.clone(),
         puppet: setting.puppet.clone(),
         plan: usual.plan,
     };
@@ -171,7 +179,10 @@ impl<'a> Play<'a> {
             dut,
             ask,
             world,
-            commands: Vec::new(),
+            commands: input::lookout(&scenario.lines)
+                .into_iter()
+                .map(|(_, look)| look)
+                .collect(),
             past: [Vec::new(), Vec::new()],
             truths,
             mark: Vec::new(),

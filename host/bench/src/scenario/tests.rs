@@ -45,6 +45,11 @@ const WRONG: &[(&str, u32, u32, &str)] = &[
         "expected a text in quotes, found `Turn`",
     ),
     ("at 1 fault servo 3 asleep on upper", 1, 20, "found `asleep`"),
+    ("at 1 touch box dial x +1", 1, 21, "expected a dial, 0 to 254, found `x`"),
+    ("by 1 output BOX is 1", 1, 13, "expected an output such as KNOB<1>"),
+    ("by 1 device box shows lamp", 1, 23, "expected something it shows in quotes"),
+    ("by 1 device box counts", 1, 17, "expected shows, events, rejected or dropped"),
+    ("use device knob", 1, 16, "expected a profile or another kind"),
     ("at 1 fault noise", 1, 12, "expected a fault, `on` and a bus"),
     ("use puppet marionette, hat red", 1, 24, "expected show, puppet"),
     (

@@ -91,6 +91,11 @@ impl<'a> Words<'a> {
             .map(|word| word.text)
     }
 
+    /// Whether the next word is this one.
+    pub(super) fn next_is(&self, word: &str) -> bool {
+        self.peek() == Some(word)
+    }
+
     /// Takes the next word if it is this one.
     pub(super) fn take(&mut self, word: &str) -> bool {
         let found = self.peek() == Some(word);

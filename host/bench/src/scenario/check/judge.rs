@@ -5,6 +5,7 @@ use rig::{DeviceHealth, PuppetState, Snapshot};
 use super::servos::{servos, torque_is};
 use super::truth::{life, register, shaft};
 use super::{Aspect, Bound, COUNTERS, Check, Evidence, HEALTHS, Near, STATES, VIEW_PARTS};
+use crate::scenario::input::{judge_device, judge_output};
 use crate::world::DIAL_BOX;
 
 impl Near {
@@ -19,7 +20,7 @@ impl Near {
 }
 
 impl Bound {
-    pub(super) fn judge(self, what: &str, count: u64) -> Result<(), String> {
+    pub(in crate::scenario) fn judge(self, what: &str, count: u64) -> Result<(), String> {
         let fits = match self {
             Self::AtLeast(least) => count >= least,
             Self::AtMost(most) => count <= most,
@@ -78,7 +79,7 @@ impl Check {
             },
             Self::Lamp { lamp, on } => {
                 let keys = seen.desk.keys.iter().enumerate();
-                let meant = keys.fold(0, |lamps: u32, (key, view)| lamps | u32::from(view.lit) << key);
+                let meant = keys.fold(0, |lamps: u64, (key, view)| lamps | u64::from(view.lit) << key);
                 let lit = stand.shown(DIAL_BOX).map_or(meant, |shown| shown.lamps);
                 fits((lit >> lamp & 1 == 1) == *on, || format!("lit are {lit:#010x}"))
             }
@@ -87,6 +88,8 @@ impl Check {
                 format!("no note has it; the last is \"{last}\"")
             }),
             Self::Device { device, health } => device_is(seen, device, health),
+            Self::Input(device, check) => judge_device(evidence, device, check),
+            Self::Output(outlet, wanted) => judge_output(seen, outlet, wanted),
             Self::Servos { joint, conduct } => servos(evidence, joint.as_deref(), *conduct),
             Self::Torque { joint, on } => torque_is(evidence, joint.as_deref(), *on),
             Self::Counter { which, bound } => {

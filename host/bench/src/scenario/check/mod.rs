@@ -11,6 +11,7 @@ use rig::calibration::Proposal;
 use rig::{DeviceHealth, PuppetState, Snapshot};
 
 use super::calibrating::Calibrated;
+use super::input::{InputCheck, Outlet, Sent};
 use crate::stand::{JointTruth, Stand};
 
 /// Words that begin an expectation.
@@ -29,6 +30,7 @@ pub(in crate::scenario) const SUBJECTS: &[&str] = &[
     "lamp",
     "note",
     "device",
+    "output",
     "servos",
     "servo",
     "torque",
@@ -141,6 +143,10 @@ pub(in crate::scenario) enum Check {
         device: String,
         health: DeviceHealth,
     },
+    /// An input device: what it shows or counts.
+    Input(String, InputCheck),
+    /// An output of the network.
+    Output(Outlet, Sent),
     Servos {
         joint: Option<String>,
         conduct: Conduct,

@@ -4,6 +4,7 @@ use super::{
     Aspect, Bound, COUNTERS, Check, Conduct, EVENTS, HEALTHS, Near, SHAFT_PARTS, STATES, SUBJECTS, VIEW_PARTS,
 };
 use crate::scenario::calibrating::Calibrated;
+use crate::scenario::input;
 use crate::scenario::words::{Parsed, Words};
 
 impl Near {
@@ -28,7 +29,7 @@ impl Near {
 }
 
 impl Bound {
-    fn parse(words: &mut Words<'_>) -> Parsed<Self> {
+    pub(in crate::scenario) fn parse(words: &mut Words<'_>) -> Parsed<Self> {
         words.expect("at")?;
         let least = words.one_of(&["least", "most"])? == 0;
         let count = words.whole("a count", 0..=u64::from(u32::MAX))?;
@@ -104,9 +105,12 @@ impl Check {
                 words.expect("contains")?;
                 words.quoted("a text").map(Self::Note)
             }
+            "output" => input::output(words),
             "device" => {
                 let device = words.text("a device")?;
-                words.expect("is")?;
+                if !words.take("is") {
+                    return input::of_device(words).map(|check| Self::Input(device, check));
+                }
                 let place = words.one_of(&HEALTHS.map(|(name, _)| name))?;
                 Ok(Self::Device {
                     device,
