@@ -12,7 +12,7 @@ use crate::travel::Travel;
 use crate::uart::Parity;
 use device_profiles::{ControlClass, InputProfile, Quirk};
 
-/// Speed of the line.
+/// Speed of a deej box's line.
 pub const BAUD: u32 = 9600;
 /// The pause of the sketch's loop.
 const PAUSE_NS: u64 = 10_000_000;
@@ -24,8 +24,16 @@ const BOOT_NS: u64 = 1_600_000_000;
 const COUNTS_MAX: f64 = 1023.0;
 
 /// How this box differs from the next.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
+    /// Speed of the line.
+    pub baud: u32,
+    /// What stands between two readings.
+    pub separator: String,
+    /// What stands before each, `{n}` for the number of the pot; none: they are told by their order.
+    pub label: Option<String>,
+    /// Readings are written in hexadecimal digits.
+    pub hexadecimal: bool,
     /// Potentiometers, numbered from 0.
     pub pots: u8,
     /// Opening the port restarts the board, as most do.
@@ -43,6 +51,10 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
+            baud: BAUD,
+            separator: "|".to_owned(),
+            label: None,
+            hexadecimal: false,
             pots: 5,
             restarts_when_opened: true,
             jitter_counts: 1,
@@ -55,10 +67,15 @@ impl Default for Options {
 
 impl From<&InputProfile> for Options {
     fn from(profile: &InputProfile) -> Self {
+        let told = profile.lines.as_ref();
         Self {
+            baud: profile.line.as_ref().map_or(BAUD, |line| line.baud),
+            separator: told.map_or_else(|| "|".to_owned(), |lines| lines.separator.clone()),
+            label: told.and_then(|lines| lines.label.clone()),
+            hexadecimal: told.is_some_and(|lines| lines.hexadecimal),
             pots: profile.count(ControlClass::Axis).min(u16::from(u8::MAX)) as u8,
             restarts_when_opened: profile.quirks.contains(&Quirk::RestartsOnOpen),
-            inverted: profile.lines.as_ref().is_some_and(|lines| lines.inverted),
+            inverted: told.is_some_and(|lines| lines.inverted),
             ..Self::default()
         }
     }
@@ -79,13 +96,14 @@ pub struct Board {
 impl Deej {
     /// A box that has been on for a while, every pot at its beginning; it is talking already.
     pub fn new(options: Options) -> Self {
+        let (baud, drift_ppm) = (options.baud, options.drift_ppm);
         let board = Board {
             next_loop_ns: 0,
             pots: vec![Travel::default(); usize::from(options.pots)],
             chance: fastrand::Rng::with_seed(options.seed),
             options,
         };
-        Self::around(board, BAUD, Parity::None, options.drift_ppm)
+        Self::around(board, baud, Parity::None, drift_ppm)
     }
 }
 
@@ -104,9 +122,17 @@ impl Inside for Board {
         let mut text = String::with_capacity(5 * self.pots.len() + 2);
         for pot in 0..self.pots.len() {
             if pot > 0 {
-                text.push('|');
+                text.push_str(&self.options.separator);
             }
-            text.push_str(&self.reading(pot, at_ns).to_string());
+            if let Some(label) = &self.options.label {
+                text.push_str(&label.replace("{n}", &pot.to_string()));
+            }
+            let reading = self.reading(pot, at_ns);
+            text += &if self.options.hexadecimal {
+                format!("{reading:x}")
+            } else {
+                reading.to_string()
+            };
         }
         text.push_str("\r\n");
         wire.say(text.as_bytes());

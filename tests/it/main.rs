@@ -12,6 +12,7 @@ mod properties;
 mod puppet_pictures;
 mod rehearsal;
 mod replay;
+mod simulated_inputs;
 mod source;
 mod studio_pictures;
 mod tidy;

@@ -5,7 +5,7 @@ use device::exchange::{Difference, Exchange, What};
 use device_profiles::Profiles;
 use firmware_sim::hands::Hands;
 use firmware_sim::script::{Device, Script};
-use firmware_sim::{Firmware, SgiDialBox, UsbDevice, WacomIv, dial_box, usb_kind};
+use firmware_sim::{SerialDevice, UsbDevice, serial_device, usb_kind};
 use std::collections::VecDeque;
 
 /// How long an answer is waited for; the slowest is a tablet that was reset.
@@ -15,36 +15,34 @@ const AFTERWARDS_US: u64 = 100_000;
 /// How often it is looked at.
 const LOOK_US: u64 = 250;
 
-/// A simulated device on a serial line, with hands on it.
-trait OnLine: Firmware + Hands {}
-impl<T: Firmware + Hands> OnLine for T {}
-
 /// The far end of the conversation.
 enum Far {
-    Line(Box<dyn OnLine>),
+    Line(Box<dyn SerialDevice>),
     /// And the interface that is spoken with.
     Usb(Box<dyn UsbDevice>, u8),
 }
 
 /// The devices that exchanges may name, and what their hands can do.
 fn build(name: &str, exchange: &Exchange, profiles: &Profiles) -> Result<(Far, Device), String> {
-    let profile = exchange.head.profile.as_deref().unwrap_or_default();
-    let profile = profiles.input(profile).map_err(|error| error.to_string())?;
     if let Some(kind) = usb_kind(name) {
         let interface = exchange.head.interface.unwrap_or(0);
         let mut device = (kind.make)();
         device.listen(0, interface, true);
         return Ok((Far::Usb(device, interface), kind.controls));
     }
-    let (line, hands): (Box<dyn OnLine>, Device) = match name {
-        "sgi-dial-box" => {
-            let options = dial_box::Options::from(profile);
-            (Box::new(SgiDialBox::new(options)), Device::DIAL_BOX)
-        }
-        "wacom-iv" => (Box::new(WacomIv::new(profile.into(), 0)), Device::Tablet),
-        other => return Err(format!("there is no simulated device `{other}`")),
-    };
-    Ok((Far::Line(line), hands))
+    let described = profiles.input(name).map_err(|error| error.to_string())?;
+    let mut line = serial_device(described).ok_or_else(|| format!("nothing like {name} is simulated"))?;
+    let controls = line.controls();
+    open(line.as_mut(), 0);
+    Ok((Far::Line(line), controls))
+}
+
+/// The host opens the port as the device begins.
+fn open(line: &mut dyn SerialDevice, now_us: u64) {
+    let (baud, parity) = line.line();
+    line.set_line_baud(now_us, baud);
+    line.set_line_parity(now_us, parity);
+    line.port_opened(now_us);
 }
 
 /// Plays it; gives where the device did otherwise.
@@ -64,6 +62,8 @@ pub(super) fn play(exchange: &Exchange, name: &str, profiles: &Profiles) -> Vec<
         far,
         hands,
         now_us: 0,
+        unplugged: false,
+        left_by_itself: false,
         bytes: VecDeque::new(),
         reports: VecDeque::new(),
         answers: VecDeque::new(),
@@ -93,6 +93,10 @@ struct Playing {
     far: Far,
     hands: Device,
     now_us: u64,
+    /// The cable of a serial line is out.
+    unplugged: bool,
+    /// A USB device dropped off the bus without anybody's doing.
+    left_by_itself: bool,
     /// Bytes of a line that nothing has told yet, and reports likewise.
     bytes: VecDeque<u8>,
     reports: VecDeque<Vec<u8>>,
@@ -152,7 +156,9 @@ impl Playing {
                 Far::Line(line) => {
                     heard.clear();
                     line.transmit(self.now_us, &mut heard);
-                    self.bytes.extend(&heard);
+                    if !self.unplugged {
+                        self.bytes.extend(&heard);
+                    }
                 }
                 Far::Usb(device, interface) => {
                     while let Some(report) = device.report(self.now_us) {
@@ -231,21 +237,40 @@ impl Playing {
     }
 
     fn plug(&mut self, connected: bool) {
-        let now_us = self.now_us;
         match &mut self.far {
-            Far::Usb(device, interface) => {
-                device.plug(now_us, connected);
+            Far::Usb(..) => self.plug_usb(connected),
+            // The device keeps its power; what it says is lost until somebody opens the port again.
+            Far::Line(line) => {
+                line.transmit(self.now_us, &mut Vec::new());
                 if connected {
-                    self.listen_until(now_us + PATIENCE_US, |_| true);
-                    if let Far::Usb(device, interface) = &mut self.far {
-                        device.listen(self.now_us, *interface, true);
-                    }
-                } else {
-                    device.listen(now_us, *interface, false);
+                    open(line.as_mut(), self.now_us);
                 }
+                self.unplugged = !connected;
             }
-            Far::Line(_) => self.differ("a device that can be unplugged", "one on a serial line".into()),
         }
+    }
+
+    /// One that has left the bus by itself is waited for, not pulled out.
+    fn plug_usb(&mut self, connected: bool) {
+        let Far::Usb(device, interface) = &mut self.far else {
+            return;
+        };
+        let (now_us, interface) = (self.now_us, *interface);
+        if !connected {
+            self.left_by_itself = device.arrival(now_us) == 0;
+            if !self.left_by_itself {
+                device.plug(now_us, false);
+            }
+            return;
+        }
+        if !self.left_by_itself {
+            device.plug(now_us, true);
+        }
+        let end_us = now_us + PATIENCE_US;
+        while device.arrival(self.now_us) == 0 && self.now_us < end_us {
+            self.now_us += LOOK_US;
+        }
+        device.listen(self.now_us, interface, true);
     }
 
     fn differ(&mut self, expected: &str, found: String) {
@@ -260,7 +285,7 @@ impl Playing {
 
 /// Asks or tells a USB device; what comes back, if anything does. A report that bears no number on the wire has 0 for
 /// it in an exchange.
-fn ask(device: &mut dyn UsbDevice, interface: u8, now_us: u64, step: &Step) -> Option<Answer> {
+pub(super) fn ask(device: &mut dyn UsbDevice, interface: u8, now_us: u64, step: &Step) -> Option<Answer> {
     let on_wire = |bytes: &[u8]| match bytes {
         [0, rest @ ..] => rest.to_vec(),
         bytes => bytes.to_vec(),

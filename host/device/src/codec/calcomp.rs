@@ -136,6 +136,10 @@ impl CalComp {
         } = self.packets.push(byte);
         self.counters.unknown += u64::from(unknown);
         self.counters.rejected += u64::from(rejected);
+        if rejected {
+            // What begins in place of something unfinished has a time of its own.
+            self.overdue.restart();
+        }
         let Some(bytes) = packet else {
             return;
         };

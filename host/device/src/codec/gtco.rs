@@ -176,6 +176,10 @@ impl Codec for Gtco {
             let pushed = self.packets.push(byte);
             self.counters.unknown += u64::from(pushed.unknown);
             self.counters.rejected += u64::from(pushed.rejected);
+            if pushed.rejected {
+                // What begins in place of something unfinished has a time of its own.
+                self.overdue.restart();
+            }
             let Some(bytes) = pushed.packet else {
                 continue;
             };

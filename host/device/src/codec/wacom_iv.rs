@@ -181,6 +181,10 @@ impl Codec for WacomIv {
             let pushed = self.packets.push(byte);
             self.counters.unknown += u64::from(pushed.unknown);
             self.counters.rejected += u64::from(pushed.rejected);
+            if pushed.rejected {
+                // What begins in place of something unfinished has a time of its own.
+                self.unfinished_since = None;
+            }
             for raw in pushed.packets.into_iter().flatten() {
                 // The next one has its own time.
                 self.unfinished_since = None;

@@ -215,8 +215,11 @@ impl Codec for WacomV {
             let pushed = self.packets.push(byte);
             self.counters.unknown += u64::from(pushed.unknown);
             self.counters.rejected += u64::from(pushed.rejected);
-            if let Some(bytes) = pushed.packet {
+            if pushed.rejected || pushed.packet.is_some() {
+                // What begins in place of something unfinished has a time of its own.
                 self.overdue.restart();
+            }
+            if let Some(bytes) = pushed.packet {
                 self.take_packet(bytes, emit);
             }
         }
