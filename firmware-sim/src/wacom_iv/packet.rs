@@ -103,7 +103,8 @@ impl Scale {
         Self {
             max: model.max,
             pressure_max: model.pressure_max,
-            upper_origin: false,
+            // A PenPartner (CT) is never told, and its driver reads it as it reads the others.
+            upper_origin: model.text.starts_with("CT"),
             pressure: false,
         }
     }

@@ -77,12 +77,7 @@ impl Check {
                 // Nobody can read a real display but with eyes: what the rig means it to show has to do.
                 Err(_) => label(seen, *control, text),
             },
-            Self::Lamp { lamp, on } => {
-                let keys = seen.desk.keys.iter().enumerate();
-                let meant = keys.fold(0, |lamps: u64, (key, view)| lamps | u64::from(view.lit) << key);
-                let lit = stand.shown(DIAL_BOX).map_or(meant, |shown| shown.lamps);
-                fits((lit >> lamp & 1 == 1) == *on, || format!("lit are {lit:#010x}"))
-            }
+            Self::Lamp { lamp, on } => lamp_is(evidence, *lamp, *on),
             Self::Note(text) => fits(seen.notes.iter().any(|note| note.text.contains(text)), || {
                 let last = seen.notes.last().map_or("none", |note| note.text.as_str());
                 format!("no note has it; the last is \"{last}\"")
@@ -194,6 +189,15 @@ fn link_selected(seen: &Snapshot, link: &str) -> Result<(), String> {
     fits(selected == Some(place), || {
         format!("selected is {}", name.unwrap_or("none"))
     })
+}
+
+/// What the box shows, or what the rig means it to where the box is real.
+fn lamp_is(evidence: &Evidence<'_>, lamp: u8, on: bool) -> Result<(), String> {
+    let keys = evidence.seen.desk.keys.iter().enumerate();
+    let meant = keys.fold(0, |lamps: u64, (key, view)| lamps | u64::from(view.lit) << key);
+    let shown = evidence.stand.shown(DIAL_BOX);
+    let lit = shown.map_or(meant, |shown| shown.lamps);
+    fits((lit >> lamp & 1 == 1) == on, || format!("lit are {lit:#010x}"))
 }
 
 fn label(seen: &Snapshot, control: u8, text: &str) -> Result<(), String> {
