@@ -36,7 +36,7 @@ impl<F: SerialDevice> Inside for Midi<F> {
     }
 
     fn drain(&mut self, shown: &mut Vec<Output>) {
-        self.firmware().drain_outputs(&mut |_, output| shown.push(output));
+        self.firmware().take_outputs(&mut |_, output| shown.push(output));
     }
 }
 
