@@ -128,11 +128,12 @@ impl Inside for Board {
                 text.push_str(&label.replace("{n}", &pot.to_string()));
             }
             let reading = self.reading(pot, at_ns);
-            text += &if self.options.hexadecimal {
+            let digits = if self.options.hexadecimal {
                 format!("{reading:x}")
             } else {
                 reading.to_string()
             };
+            text.push_str(&digits);
         }
         text.push_str("\r\n");
         wire.say(text.as_bytes());
