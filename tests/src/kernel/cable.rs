@@ -27,8 +27,12 @@ const CONTROLLER: &str = "/sys/devices/platform/vhci_hcd.0";
 const HUB_SPEED: &str = "480";
 /// How long the kernel may take to forget a device whose cable was pulled.
 const FORGETS_IN: Duration = Duration::from_secs(30);
-/// How long a transfer may wait for data that is there: a poll of a full-speed bus.
+/// How long a transfer may wait for data that is there, nanoseconds: less than a poll of a full-speed bus while something
+/// goes on, and so long when nothing does that ten idle devices leave an emulated processor to others.
 const LOOK_NS: i64 = 500_000;
+const LOOK_IDLE_NS: i64 = 3_000_000;
+/// Something goes on for so long after the last transfer, microseconds.
+const BUSY_FOR_US: u64 = 50_000;
 const GET_DESCRIPTOR: u8 = 6;
 const GET_STATUS: u8 = 0;
 const SET_ADDRESS: u8 = 5;
@@ -204,6 +208,7 @@ fn stay<F: Function>(shared: &Shared<F>, arrival: u32, far: UnixStream, watch: &
         inbox: Inbox::default(),
         waiting: VecDeque::new(),
         listened: 0,
+        busy_until_us: 0,
     };
     loop {
         let now_us = watch.now_us();
@@ -219,11 +224,12 @@ fn stay<F: Function>(shared: &Shared<F>, arrival: u32, far: UnixStream, watch: &
         }
         let mut function = lock(&shared.function);
         while let Some(message) = link.inbox.take()? {
+            link.busy_until_us = now_us + BUSY_FOR_US;
             link.take(&mut *function, message, now_us)?;
         }
         link.complete(&mut *function, now_us)?;
         drop(function);
-        link.rest();
+        link.rest(now_us);
     }
 }
 
@@ -259,6 +265,7 @@ struct Link {
     waiting: VecDeque<Submit>,
     /// Endpoints the host asks, bit n for endpoint n.
     listened: u16,
+    busy_until_us: u64,
 }
 
 impl Link {
@@ -327,10 +334,11 @@ impl Link {
     }
 
     /// Until the kernel says something, or the device may.
-    fn rest(&self) {
+    fn rest(&self, now_us: u64) {
+        let busy = now_us < self.busy_until_us;
         let limit = Timespec {
             tv_sec: 0,
-            tv_nsec: LOOK_NS,
+            tv_nsec: if busy { LOOK_NS } else { LOOK_IDLE_NS },
         };
         let mut watched = [PollFd::new(&self.far, PollFlags::IN)];
         // An interrupted wait is a short one.

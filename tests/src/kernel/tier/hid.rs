@@ -46,7 +46,7 @@ pub(super) const CLAIMS: &[Claim] = &[
         show: pth_660,
     },
     Claim {
-        name: "hid: dialrig sim --uhid plays a script on a device of the kernel's own, and says what it was shown",
+        name: "hid: dialrig sim --uhid plays a script on a device of the kernel's own, says what it was shown, goes and returns",
         show: by_uhid,
     },
 ];
@@ -371,29 +371,34 @@ fn by_uhid(watch: &Watch) -> anyhow::Result<()> {
         script,
         "at 1 dial 0 +30 over 0.5\nat 1.8 button 0 down\nat 2 button 0 up\n",
     )?;
-    let simulated = Running::start(&[
-        "sim",
-        "dial-box",
-        "--kind",
-        "powermate",
-        "--uhid",
-        "--script",
-        script,
-        "--json",
-    ])?;
-    let mut line = opened(watch, "powermate")?;
-    let mut seen = Vec::new();
-    let sum = |seen: &[Vec<u8>]| seen.iter().map(|bytes| i32::from(bytes[1] as i8)).sum::<i32>();
-    let presses = |seen: &[Vec<u8>]| seen.iter().filter(|bytes| bytes[0] == 1).count();
-    while sum(&seen) < 30 || presses(&seen) < 1 || seen.last().is_some_and(|last| last[0] == 1) {
-        seen.extend(reports(watch, &mut *line, 1)?);
+    for _ in 0..2 {
+        let simulated = Running::start(&[
+            "sim",
+            "dial-box",
+            "--kind",
+            "powermate",
+            "--uhid",
+            "--script",
+            script,
+            "--json",
+        ])?;
+        let mut line = opened(watch, "powermate")?;
+        let mut seen = Vec::new();
+        let sum = |seen: &[Vec<u8>]| seen.iter().map(|bytes| i32::from(bytes[1] as i8)).sum::<i32>();
+        let presses = |seen: &[Vec<u8>]| seen.iter().filter(|bytes| bytes[0] == 1).count();
+        while sum(&seen) < 30 || presses(&seen) < 1 || seen.last().is_some_and(|last| last[0] == 1) {
+            seen.extend(reports(watch, &mut *line, 1)?);
+        }
+        quiet(watch, &mut *line, Duration::from_millis(300))?;
+        same(
+            &(sum(&seen), presses(&seen)),
+            &(30, 1),
+            "the script's turn and press",
+        )?;
+        line.write(&[0, 0x42])?;
+        simulated.shown("level", 0x42, PATIENCE)?;
+        drop(simulated);
+        until_gone(watch, &mut *line)?;
     }
-    quiet(watch, &mut *line, Duration::from_millis(300))?;
-    same(
-        &(sum(&seen), presses(&seen)),
-        &(30, 1),
-        "the script's turn and press",
-    )?;
-    line.write(&[0, 0x42])?;
-    simulated.shown("level", 0x42, PATIENCE)
+    Ok(())
 }

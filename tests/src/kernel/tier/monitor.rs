@@ -5,10 +5,11 @@ use std::time::Duration;
 
 use anyhow::{Context, ensure};
 use firmware_sim::hands::{Pen, Touch};
+use firmware_sim::usb_device::UsbFault;
 use serde_json::Value;
 
 use super::many::{turn, while_turning};
-use super::open::{find_one, plugged, touch, until_open};
+use super::open::{find_one, plugged, touch, until_open, with};
 use super::{Claim, PATIENCE, edges, monitor, same, told};
 use crate::kernel::cable::{Cable, Watch};
 use crate::kernel::function::Hid;
@@ -22,6 +23,10 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         name: "monitor: a CTL-472 is switched to its own reports, and every stroke is told sample by sample",
         show: strokes,
+    },
+    Claim {
+        name: "monitor: nonsense, short, long and foreign reports among a CTL-472's own are passed over or counted, and add no event",
+        show: spoilt,
     },
     Claim {
         name: "monitor: a six-axis cap of unknown ids is told by its report descriptor",
@@ -64,14 +69,15 @@ fn sent(taken: &[Vec<u8>]) -> Vec<i64> {
     steps.filter(|step| *step != 0).collect()
 }
 
-/// Ends a monitor as Ctrl-C does; everything it told.
-fn finished(watch: &Watch, mut monitor: Running) -> anyhow::Result<Vec<Value>> {
+/// Ends a monitor as Ctrl-C does; everything it told, and what it said besides.
+fn finished(watch: &Watch, mut monitor: Running) -> anyhow::Result<(Vec<Value>, Vec<String>)> {
     // Whatever was invented had time to be told.
     watch.pause(Duration::from_millis(200));
     monitor.interrupt()?;
     let status = monitor.ended(watch, PATIENCE)?;
     ensure!(status.success(), "{status}: {:?}", monitor.errors());
-    monitor.all(PATIENCE)
+    let records = monitor.all(PATIENCE)?;
+    Ok((records, monitor.errors()))
 }
 
 fn knob(watch: &Watch) -> anyhow::Result<()> {
@@ -89,7 +95,7 @@ fn knob(watch: &Watch) -> anyhow::Result<()> {
     })?;
     touch(&cable, &button(false))?;
     monitor.until(PATIENCE, "the release", |records| edges(records).len() == 2)?;
-    let records = finished(watch, monitor)?;
+    let records = finished(watch, monitor)?.0;
     let taken = cable.with(|hid, _| hid.taken());
     same(&steps(&records), &sent(&taken), "every step, in order")?;
     same(&edges(&records), &vec![(0, true), (0, false)], "the button")?;
@@ -109,34 +115,44 @@ fn drawn(taken: &[Vec<u8>]) -> Vec<[u64; 2]> {
     places
 }
 
+/// A pen that draws, and the counts it is then at: 15,200 by 9,500, y downwards.
+fn pen(x: f64, y: f64) -> (Touch, [u64; 2]) {
+    let pen = Pen {
+        x,
+        y,
+        tip: true,
+        pressure: 0.5,
+        ..Pen::default()
+    };
+    let counts = [(x + 1.0) * 7_600.0, (1.0 - y) * 4_750.0].map(|place| place.round() as u64);
+    (Touch::Pen(pen), counts)
+}
+
+/// Waits until the pen is told there.
+fn until_at(monitor: &Running, counts: [u64; 2]) -> anyhow::Result<()> {
+    let there = |records: &[Value]| samples(records).last() == Some(&counts);
+    monitor
+        .until(PATIENCE, &format!("a sample at {counts:?}"), there)
+        .map(drop)
+}
+
 fn strokes(watch: &Watch) -> anyhow::Result<()> {
     let cable = plugged("ctl-472", 1, watch)?;
     let monitor = listening(watch, &cable, "ctl-472")?;
     let mut wanted = Vec::new();
     for stroke in 0..2 {
         for place in 0..25 {
-            let (x, y) = (f64::from(place) / 12.5 - 1.0, f64::from(stroke) - 0.5);
-            touch(
-                &cable,
-                &Touch::Pen(Pen {
-                    x,
-                    y,
-                    tip: true,
-                    pressure: 0.5,
-                    ..Pen::default()
-                }),
-            )?;
-            // 15,200 by 9,500 counts, y downwards; one step of the hand at a time.
-            let counts = [(x + 1.0) * 7_600.0, (1.0 - y) * 4_750.0].map(|place| place.round() as u64);
+            let (drawing, counts) = pen(f64::from(place) / 12.5 - 1.0, f64::from(stroke) - 0.5);
+            touch(&cable, &drawing)?;
             wanted.push(counts);
-            let there = |records: &[Value]| samples(records).last() == Some(&counts);
-            monitor.until(PATIENCE, &format!("a sample at {counts:?}"), there)?;
+            // One step of the hand at a time.
+            until_at(&monitor, counts)?;
         }
         touch(&cable, &Touch::Away)?;
         let away = |records: &[Value]| flags(records, "in_range").len() == 2 * (stroke as usize + 1);
         monitor.until(PATIENCE, "the pen away", away)?;
     }
-    let records = finished(watch, monitor)?;
+    let records = finished(watch, monitor)?.0;
     let taken = cable.with(|hid, _| hid.taken());
     same(
         &drawn(&taken),
@@ -149,6 +165,59 @@ fn strokes(watch: &Watch) -> anyhow::Result<()> {
     for event in ["in_range", "tip"] {
         same(&flags(&records, event), &vec![true, false, true, false], event)?;
     }
+    Ok(())
+}
+
+fn spoilt(watch: &Watch) -> anyhow::Result<()> {
+    let cable = plugged("ctl-472", 1, watch)?;
+    let monitor = listening(watch, &cable, "ctl-472")?;
+    let (drawing, first) = pen(-1.0, 0.0);
+    touch(&cable, &drawing)?;
+    until_at(&monitor, first)?;
+    let mut places = vec![first];
+    let faults = [
+        UsbFault::Garbage,
+        UsbFault::Short,
+        UsbFault::Wrong,
+        UsbFault::Long,
+    ];
+    for (n, fault) in (1..).zip(faults) {
+        with(&cable, |device, now_us| device.inject(now_us, fault));
+        // The first of the two is struck; the second is as it should be.
+        for place in [n, n + 10] {
+            let (drawing, counts) = pen(f64::from(place) / 20.0, 0.0);
+            touch(&cable, &drawing)?;
+            places.push(counts);
+            if place > 10 {
+                until_at(&monitor, counts)?;
+            }
+        }
+    }
+    touch(&cable, &Touch::Away)?;
+    let away = |records: &[Value]| flags(records, "in_range").len() == 2;
+    monitor.until(PATIENCE, "the pen away", away)?;
+    let (records, said) = finished(watch, monitor)?;
+    for event in ["in_range", "tip"] {
+        same(&flags(&records, event), &vec![true, false], event)?;
+    }
+    // What was told was drawn, in its order.
+    let mut told = samples(&records);
+    told.dedup();
+    let mut drawn = places.iter();
+    ensure!(
+        told.iter().all(|told| drawn.any(|place| place == told)),
+        "told {told:?} of {places:?}"
+    );
+    // The kernel keeps some of them to itself; of what it hands on, each is a report, unknown or rejected.
+    let taken = cable.with(|hid, _| hid.taken()).len();
+    let totals = said.iter().find(|line| line.contains(" rejected"));
+    let totals = totals.with_context(|| format!("totals in {said:?}"))?;
+    let of = |word: &str| {
+        let part = totals.split(", ").find(|part| part.contains(word));
+        part.and_then(|part| part.split(' ').next()?.parse::<usize>().ok())
+    };
+    let heard = of("reports").context("reports")? + of("rejected").context("rejected")?;
+    ensure!((8..=taken).contains(&heard), "{totals}; the kernel took {taken}");
     Ok(())
 }
 
@@ -210,7 +279,7 @@ fn unknown(watch: &Watch) -> anyhow::Result<()> {
     monitor.until(PATIENCE, "a press", |records| {
         edges(records) == [(0, true), (0, false)]
     })?;
-    let records = finished(watch, monitor)?;
+    let records = finished(watch, monitor)?.0;
     for axis in [0, 1, 3, 4, 5] {
         let values = value(&records, axis);
         ensure!(

@@ -71,7 +71,8 @@ pub(super) fn find(watch: &Watch, profile: &str, count: usize) -> anyhow::Result
             let all = discovery::list(&Places::default());
             bail!("{} of {count} {profile} among {all:#?}", these.len());
         }
-        watch.pause(Duration::from_millis(30));
+        // Looking is work too, and the device is still coming.
+        watch.pause(Duration::from_millis(80));
     }
 }
 
