@@ -369,7 +369,7 @@ fn by_uhid(watch: &Watch) -> anyhow::Result<()> {
     let script = "/tmp/turn.txt";
     std::fs::write(
         script,
-        "at 1 dial 0 +30 over 0.5\nat 1.8 button 0 down\nat 2 button 0 up\n",
+        "at 0.3 dial 0 +30 over 0.3\nat 0.8 button 0 down\nat 0.9 button 0 up\n",
     )?;
     for _ in 0..2 {
         let simulated = Running::start(&[

@@ -31,16 +31,19 @@ pub struct Claim {
     pub show: fn(&Watch) -> anyhow::Result<()>,
 }
 
-/// All of them, in the order they are shown.
-pub const CLAIMS: &[&[Claim]] = &[
-    hid::CLAIMS,
-    monitor::CLAIMS,
-    nodeless::CLAIMS,
-    many::CLAIMS,
-    serial::CLAIMS,
-    midi::CLAIMS,
-    feedback::CLAIMS,
-    rig::CLAIMS,
+/// All of them: those of a lane are shown one after another, beside those of the other lane. Nothing in one lane may
+/// have to do with the devices of the other.
+pub const LANES: [&[&[Claim]]; 2] = [
+    &[
+        hid::CLAIMS,
+        monitor::CLAIMS,
+        nodeless::CLAIMS,
+        many::CLAIMS,
+        midi::CLAIMS,
+        feedback::CLAIMS,
+        rig::CLAIMS,
+    ],
+    &[serial::CLAIMS, serial::BUS_CLAIMS, feedback::SERIAL_CLAIMS],
 ];
 
 /// A monitor of `address`, which the device has answered. Without a profile it must find out by itself what it is.

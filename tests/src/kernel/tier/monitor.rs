@@ -175,6 +175,7 @@ fn spoilt(watch: &Watch) -> anyhow::Result<()> {
     touch(&cable, &drawing)?;
     until_at(&monitor, first)?;
     let mut places = vec![first];
+    let mut taken = until_taken(watch, &cable)?;
     let faults = [
         UsbFault::Garbage,
         UsbFault::Short,
@@ -186,8 +187,10 @@ fn spoilt(watch: &Watch) -> anyhow::Result<()> {
         // The first of the two is struck; the second is as it should be.
         for place in [n, n + 10] {
             let (drawing, counts) = pen(f64::from(place) / 20.0, 0.0);
+            taken += cable.with(|hid, _| hid.taken()).len();
             touch(&cable, &drawing)?;
             places.push(counts);
+            taken += until_taken(watch, &cable)?;
             if place > 10 {
                 until_at(&monitor, counts)?;
             }
@@ -209,7 +212,7 @@ fn spoilt(watch: &Watch) -> anyhow::Result<()> {
         "told {told:?} of {places:?}"
     );
     // The kernel keeps some of them to itself; of what it hands on, each is a report, unknown or rejected.
-    let taken = cable.with(|hid, _| hid.taken()).len();
+    taken += cable.with(|hid, _| hid.taken()).len();
     let totals = said.iter().find(|line| line.contains(" rejected"));
     let totals = totals.with_context(|| format!("totals in {said:?}"))?;
     let of = |word: &str| {
@@ -219,6 +222,19 @@ fn spoilt(watch: &Watch) -> anyhow::Result<()> {
     let heard = of("reports").context("reports")? + of("rejected").context("rejected")?;
     ensure!((8..=taken).contains(&heard), "{totals}; the kernel took {taken}");
     Ok(())
+}
+
+/// Waits until the kernel has taken something since this was last asked; how many reports.
+fn until_taken(watch: &Watch, cable: &Cable<Hid>) -> anyhow::Result<usize> {
+    let until_us = watch.now_us() + PATIENCE.as_micros() as u64;
+    loop {
+        let taken = cable.with(|hid, _| hid.taken()).len();
+        if taken > 0 {
+            return Ok(taken);
+        }
+        ensure!(watch.now_us() < until_us, "the kernel took nothing");
+        watch.pause(Duration::from_millis(1));
+    }
 }
 
 fn samples(records: &[Value]) -> Vec<[u64; 2]> {
