@@ -4,8 +4,8 @@ use std::process::{Child, Command};
 use std::time::Duration;
 
 use anyhow::{Context, ensure};
+use firmware_sim::InputFault;
 use firmware_sim::hands::{Pen, Touch};
-use firmware_sim::usb_device::UsbFault;
 use serde_json::Value;
 
 use super::many::{turn, while_turning};
@@ -177,10 +177,10 @@ fn spoilt(watch: &Watch) -> anyhow::Result<()> {
     let mut places = vec![first];
     let mut taken = until_taken(watch, &cable)?;
     let faults = [
-        UsbFault::Garbage,
-        UsbFault::Short,
-        UsbFault::Wrong,
-        UsbFault::Long,
+        InputFault::Garbage,
+        InputFault::Short,
+        InputFault::Wrong,
+        InputFault::Long,
     ];
     for (n, fault) in (1..).zip(faults) {
         with(&cable, |device, now_us| device.inject(now_us, fault));
