@@ -168,11 +168,7 @@ impl Building<'_> {
 
 /// Place of the first such usage among an array's choices.
 fn place_of(usages: &[UsageRange], is: impl Fn(Usage) -> bool) -> Option<u16> {
-    let each = |range: &UsageRange| {
-        (0..range.count())
-            .filter_map(|n| range.nth(n))
-            .collect::<Vec<_>>()
-    };
+    let each = |&range: &UsageRange| (0..range.count()).filter_map(move |n| range.nth(n));
     // Beyond the most controls there is nothing to be looked for.
     let mut all = usages.iter().flat_map(each).take(CONTROLS_MAX);
     all.position(is).map(|at| at as u16)
