@@ -96,6 +96,7 @@ fn arm() -> World {
         },
         show,
         profiles: Arc::new(rig::shipped::profiles(None).expect("the shipped profiles are whole")),
+        calibrations: <_>::default(),
         journal: None,
         dut: None,
     };

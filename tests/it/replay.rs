@@ -7,6 +7,7 @@ use bench::{Movement, hands::Tool};
 use device::{Clock, VirtualClock};
 use device_profiles::Profiles;
 use firmware_sim::hands::Turn;
+use rig::controls_calibration::Store;
 use rig::document::Show;
 use rig::journal::{Digest, Ending, Recorder, RecordingPorts, Script};
 use rig::{
@@ -164,6 +165,7 @@ fn play_again(text: &str) -> (Outcome, Option<Ending>, Option<Ending>) {
         folder: None,
         profiles: Arc::clone(&profiles),
         inputs: equipment.inputs(),
+        calibrations: Store::knowing(script.calibrated.clone()),
         puppet: equipment
             .puppet(&profiles, Pace::WithTheRig, PERIOD)
             .expect("a puppet"),

@@ -43,6 +43,7 @@ pub(crate) fn world() -> World {
         show,
         profiles: Arc::new(profiles),
         equipment,
+        calibrations: <_>::default(),
         journal: None,
         dut: None,
     };

@@ -23,6 +23,15 @@ pub enum Movement {
         /// Duration.
         over_secs: f64,
     },
+    /// Takes a fader, knob or axis to a place.
+    Slide {
+        /// Which of them, from 0.
+        control: u8,
+        /// Share of its travel, 0 to 1; −1 to 1 where it springs back to the middle.
+        to: f64,
+        /// Duration.
+        over_secs: f64,
+    },
     /// Presses a key and lets it go.
     Press {
         /// Key, from 0.
@@ -225,6 +234,16 @@ impl Hands {
                 })?;
                 Ok(share < 1.0)
             }
+            Movement::Slide {
+                control,
+                to,
+                over_secs,
+            } => touch(Touch::Axis {
+                control,
+                to,
+                over_us: (over_secs.max(0.0) * 1e6) as u64,
+            })
+            .map(|()| false),
             Movement::Press { control, for_secs } => {
                 let down = first || passed_secs < for_secs;
                 if first || !down {

@@ -5,10 +5,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use device::clock::{Clock, VirtualClock};
 use device_profiles::Profiles;
+use rig::controls_calibration::Store;
 use rig::document::Show;
 use rig::journal::{Digest, Ending, JournalError, Recorder, RecordingPorts, Script};
 
-use crate::world::{Equipment, WorldError, start_rig};
+use crate::world::{Equipment, Kept, WorldError, start_rig};
 
 /// A journal kept in memory. Clones are the same journal.
 #[derive(Clone, Debug, Default)]
@@ -90,7 +91,11 @@ pub fn replay(
         recorder.clone(),
     ));
     let shared: Arc<dyn Clock> = Arc::new(clock.clone());
-    let mut rig = start_rig(&shared, ports, show, profiles, equipment, Some(recorder), None)?;
+    let kept = Kept {
+        recorder: Some(recorder),
+        calibrations: Store::knowing(script.calibrated.clone()),
+    };
+    let mut rig = start_rig(&shared, ports, show, profiles, equipment, kept, None)?;
     for step in &script.steps {
         clock.sleep_until(step.now);
         rig.step(&mut step.commands.iter().cloned());

@@ -4,6 +4,7 @@
 //! the same snapshots, bytes and journal, every time. With a device under test the clock is the system's and the
 //! puppet has its own thread; nothing else differs.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,6 +12,7 @@ use std::time::Duration;
 use device::clock::{Clock, Instant, MonotonicClock, VirtualClock};
 use device_profiles::Profiles;
 use rig::calibration::{Proposal, Reading};
+use rig::controls_calibration::{ControlsCalibration, Store};
 use rig::document::Show;
 use rig::journal::{Recorder, RecordingPorts};
 use rig::{Command, InputSpec, Pace, Ports, PuppetSpec, Rig, RigError, RigOptions, Snapshot};
@@ -128,6 +130,8 @@ pub struct WorldOptions {
     pub profiles: Arc<Profiles>,
     /// What stands on the bench.
     pub equipment: Equipment,
+    /// What was calibrated on input devices before, by `PROFILE@sim:NAME`.
+    pub calibrations: BTreeMap<String, ControlsCalibration>,
     /// Where the journal goes.
     pub journal: Option<Box<dyn Write + Send>>,
     /// Real ports in place of simulated devices; with any of these, time is real too.
@@ -145,6 +149,7 @@ impl WorldOptions {
             show,
             profiles: Arc::new(Profiles::builtin()),
             equipment,
+            calibrations: BTreeMap::new(),
             journal: None,
             dut: None,
         }
@@ -204,6 +209,7 @@ impl World {
             show,
             profiles,
             mut equipment,
+            calibrations,
             journal,
             dut,
         } = options;
@@ -225,7 +231,11 @@ impl World {
             None => ports,
         };
         let held = Arc::clone(&profiles);
-        let mut rig = start_rig(&clock, ports, show, profiles, &equipment, recorder, dut.as_ref())?;
+        let kept = Kept {
+            recorder,
+            calibrations: Store::knowing(calibrations),
+        };
+        let mut rig = start_rig(&clock, ports, show, profiles, &equipment, kept, dut.as_ref())?;
         let seen = rig.step(&mut std::iter::empty());
         let hands = Hands::new(stand.clone());
         Ok(Self {
@@ -291,7 +301,10 @@ impl World {
             show,
             profiles,
             &self.equipment,
-            None,
+            Kept {
+                recorder: None,
+                calibrations: Store::knowing(self.rig.calibrated().clone()),
+            },
             self.dut.as_ref(),
         )
         .map_err(|error| HandError::Calibration {
@@ -377,13 +390,21 @@ impl World {
     }
 }
 
+/// What is kept of a rig beside its show.
+pub(crate) struct Kept {
+    /// Where to journal.
+    pub(crate) recorder: Option<Recorder>,
+    /// What was calibrated on input devices.
+    pub(crate) calibrations: Store,
+}
+
 pub(crate) fn start_rig(
     clock: &Arc<dyn Clock>,
     ports: Box<dyn Ports>,
     show: Show,
     profiles: Arc<Profiles>,
     equipment: &Equipment,
-    recorder: Option<Recorder>,
+    kept: Kept,
     dut: Option<&Dut>,
 ) -> Result<Rig, WorldError> {
     let pace = if dut.is_some() {
@@ -404,8 +425,9 @@ pub(crate) fn start_rig(
         folder: None,
         profiles,
         inputs,
+        calibrations: kept.calibrations,
         puppet,
-        recorder,
+        recorder: kept.recorder,
     };
     Ok(Rig::new(Arc::clone(clock), ports, options)?)
 }

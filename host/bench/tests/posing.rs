@@ -20,6 +20,7 @@ fn world() -> World {
         show,
         profiles: Arc::new(Profiles::builtin()),
         equipment,
+        calibrations: <_>::default(),
         journal: None,
         dut: None,
     })

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use bench::SimPorts;
 use bench::world::Equipment;
+use rig::controls_calibration::Store;
 use rig::document::{self, Show};
 use rig::{InputSpec, Live, Pace, Profiles, PuppetSpec, Rig, RigOptions, Snapshot, SystemPorts, WithBench};
 
@@ -106,6 +107,7 @@ impl LiveSetup {
             folder: self.folder,
             profiles: self.profiles,
             inputs,
+            calibrations: Store::of_user(rig::shipped::user_folder().as_deref()),
             puppet,
             recorder: None,
         };

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 pub use crate::controls::command::{Binding, ControlCommand, LearnCommand};
+pub use crate::controls_calibration::CalibrateControl;
 use crate::take::TakeTolerance;
 
 /// One request. Requests that cannot be met leave a [`crate::Note`] and change nothing.
@@ -67,6 +68,8 @@ pub enum Command {
     },
     /// How controls behave, and their pages.
     Controls(ControlCommand),
+    /// Measuring what a control's counts come to, with a hand on it. Kept with the device, no step of undo.
+    CalibrateControl(CalibrateControl),
     /// Has a device show what one output of it can, for a moment; then it shows what it is to show again.
     TestOutput {
         /// The device's name as in [`crate::DeviceView::name`].

@@ -8,6 +8,7 @@ use ps300::machine::Panel;
 use ps300::value::Value;
 
 use crate::controls::tablet::Tablet;
+use crate::controls_calibration::TabletMapping;
 use crate::snapshot::DeskView;
 
 /// How long a dial is drawn as live after it moved, seconds.
@@ -69,9 +70,7 @@ impl Desk {
             InputEvent::Pen(sample) => {
                 let Some(surface) = source.surface else { return };
                 self.tablet.hear(sample, surface, &mut |output, value| {
-                    if output <= TABLETIN_OUTPUTS {
-                        emit("TABLETIN", output, value);
-                    }
+                    tabletin(emit, output, value)
                 });
             }
             // Of the rest the original's devices have nothing.
@@ -83,6 +82,18 @@ impl Desk {
             | InputEvent::AxisTouched { .. }
             | InputEvent::Ring { .. } => {}
         }
+    }
+
+    /// The tablet takes another mapping.
+    pub(crate) fn calibrate(&mut self, mapping: Option<&TabletMapping>, emit: &mut Emit<'_>) {
+        self.tablet
+            .calibrate(mapping, &mut |output, value| tabletin(emit, output, value));
+    }
+
+    /// The tablet begins or ends being calibrated.
+    pub(crate) fn mute(&mut self, on: bool, emit: &mut Emit<'_>) {
+        self.tablet
+            .mute(on, &mut |output, value| tabletin(emit, output, value));
     }
 
     /// The desk as it looks now: labels and lamps are the network's.
@@ -98,6 +109,13 @@ impl Desk {
         }
         view.simulated_device = simulated_device;
         view
+    }
+}
+
+/// TABLETIN has but the first outputs of a surface.
+fn tabletin(emit: &mut Emit<'_>, output: u8, value: Value) {
+    if output <= TABLETIN_OUTPUTS {
+        emit("TABLETIN", output, value);
     }
 }
 

@@ -183,6 +183,22 @@ impl Identities {
             .unwrap_or(u16::MAX)
     }
 
+    /// By what a unit is known again, now and after a restart: its profile and serial number, or which of those of its
+    /// profile it was that came first. Unlike its place it does not change hands.
+    pub(crate) fn identity(&self, unit: &Unit) -> Option<String> {
+        let at = self.row_of(unit, false).or_else(|| self.row_of(unit, true))?;
+        let row = &self.rows[at];
+        Some(match &row.serial {
+            Some(serial) => format!("{} {serial}", row.profile),
+            None => {
+                // Rows are never taken out, so the count of those before one stays.
+                let before = self.rows[..at].iter();
+                let nth = before.filter(|other| other.profile == row.profile).count() + 1;
+                format!("{} no. {nth}", row.profile)
+            }
+        })
+    }
+
     /// Gives a unit a place for good; whoever had it takes this one's. None: it may be found by itself again.
     pub(crate) fn pin(&mut self, unit: &Unit, slot: Option<u16>) -> Result<(), String> {
         let row = self
@@ -299,8 +315,28 @@ mod tests {
         all.assign(&two);
         all.pin(&two[1], Some(1)).expect("it is known");
         assert_eq!(all.assign(&two), [2, 1]);
+        let identities = two.each_ref().map(|it| all.identity(it));
+        assert_eq!(identities, [Some("knob A".to_owned()), Some("knob B".to_owned())]);
         assert!(all.pin(&unit("C", "1-3"), Some(1)).is_err());
         assert!(all.pin(&two[0], Some(0)).is_err());
+    }
+
+    #[test]
+    fn what_a_device_is_known_by_stays_with_it() {
+        let mut all = Identities::default();
+        let two = [unit("", "1-1"), unit("", "1-2")];
+        all.assign(&two);
+        let known = |all: &Identities, it: &Unit| all.identity(it).expect("it has a place");
+        let before = two.each_ref().map(|it| known(&all, it));
+        assert_ne!(before[0], before[1]);
+        all.pin(&two[1], Some(1)).expect("it is known");
+        all.assign(&two);
+        assert_eq!(
+            two.each_ref().map(|it| known(&all, it)),
+            before,
+            "places changed, devices did not"
+        );
+        assert_eq!(all.identity(&unit("C", "1-3")), None);
     }
 
     #[test]

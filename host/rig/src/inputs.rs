@@ -10,12 +10,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use device::clock::Instant;
-use device::codec::{Feedback, InputEvent, Stamped};
+use device::codec::{Feedback, InputEvent, Stamped, Surface};
 use device::transport::{Transport, TransportError};
 use device::{Device, Health};
 use device_profiles::{ControlClass, InputProfile, Profiles};
 
 use crate::controls::view::{DeviceHealth, DeviceView};
+use crate::controls_calibration::Sheet;
 use crate::desk::Source;
 use crate::ports::Ports;
 
@@ -75,6 +76,8 @@ pub(crate) struct Inputs {
     list_at: Instant,
     /// After so long.
     list_again: Duration,
+    /// Counts changes of what devices are known by.
+    pub(crate) identified: u64,
     /// Addresses of devices whose own description says nothing.
     refused: BTreeSet<String>,
 }
@@ -90,6 +93,8 @@ pub(crate) struct Heard {
 
 struct Seat {
     spec: InputSpec,
+    /// By what it is told apart from its equals: what was calibrated on it is kept by that.
+    identity: String,
     make: Make,
     counts_per_turn: f64,
     dials: u16,
@@ -140,6 +145,7 @@ impl Inputs {
             profiles: Arc::clone(profiles),
             list_at: Instant::ZERO,
             list_again: plugging::LIST_AGAIN,
+            identified: 1,
             refused: BTreeSet::new(),
         })
     }
@@ -205,6 +211,18 @@ impl Inputs {
         self.seats.iter().map(Seat::view).collect()
     }
 
+    /// By what the device of that name is told apart from its equals.
+    pub(crate) fn identity(&self, name: &str) -> Option<&str> {
+        let seat = self.seats.iter().find(|seat| seat.spec.name == name);
+        seat.map(|seat| seat.identity.as_str())
+    }
+
+    /// The tablet of that name, once it has said how large it is.
+    pub(crate) fn surface(&self, name: &str) -> Option<Surface> {
+        let seat = self.seats.iter().find(|seat| seat.spec.name == name)?;
+        seat.device.as_ref()?.surface()
+    }
+
     /// Where the device of that name was opened.
     pub(crate) fn address(&self, name: &str) -> Option<&str> {
         self.seats
@@ -255,6 +273,7 @@ impl Seat {
 
     fn with(spec: InputSpec, profile: Arc<InputProfile>, make: Make) -> Self {
         Self {
+            identity: by_address(&spec),
             spec,
             make,
             counts_per_turn: profile.counts_per_turn(),
@@ -392,9 +411,15 @@ impl Seat {
             rejected: counters.unknown + counters.rejected,
             dropped: self.device.as_ref().map_or(0, Device::dropped),
             slot: self.taken.as_ref().map_or(1, |taken| taken.slot),
+            sheet: self.device.as_ref().and_then(Device::surface).map(Sheet::from),
             ..DeviceView::default()
         }
     }
+}
+
+/// Of a device that nothing else tells apart.
+pub(crate) fn by_address(spec: &InputSpec) -> String {
+    format!("{}@{}", spec.profile, spec.address)
 }
 
 #[cfg(test)]

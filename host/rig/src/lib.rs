@@ -45,10 +45,12 @@ pub mod ward;
 mod wiring;
 
 pub use command::{
-    Binding, Command, ControlCommand, EditCommand, KineticsMode, LearnCommand, NetworkEdit, PoseCommand,
-    PuppetCommand, PuppetPose, Side, TakeCommand, TeachCommand, Touch, TransportCommand, ViewCommand,
+    Binding, CalibrateControl, Command, ControlCommand, EditCommand, KineticsMode, LearnCommand, NetworkEdit,
+    PoseCommand, PuppetCommand, PuppetPose, Side, TakeCommand, TeachCommand, Touch, TransportCommand,
+    ViewCommand,
 };
 pub use controls::view::{CaptureView, ControlView, DeviceHealth, DeviceView, LearningView, OutputView};
+pub use controls_calibration::{CalibrationView, ControlsCalibration, TabletMapping};
 pub use device_profiles::{Profiles, Reaction};
 pub use feasibility::{FeasibilityView, StretchKind, StretchView};
 pub use inputs::{InputError, InputSpec};

@@ -46,6 +46,9 @@ pub struct Plug {
     pub slot: u16,
     /// Its line's speed, 0 where it has no line.
     pub baud: u32,
+    /// By what it is known again wherever it is plugged in; empty in journals of before there was one.
+    #[serde(default)]
+    pub identity: String,
 }
 
 impl Default for Found {

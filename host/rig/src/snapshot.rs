@@ -14,6 +14,7 @@ use ps300::machine::Activity;
 use ps300::machine::picture::Picture;
 
 use crate::controls::view::{DeviceView, LearningView};
+use crate::controls_calibration::CalibrationView;
 use crate::feasibility::FeasibilityView;
 use crate::journal::Digest;
 use crate::puppet::PuppetPoseView;
@@ -59,6 +60,8 @@ pub struct Snapshot {
     pub devices: Vec<DeviceView>,
     /// What is being learnt, while something is ([`crate::LearnCommand`]).
     pub learning: Option<LearningView>,
+    /// The control that is being calibrated, while one is ([`crate::CalibrateControl`]).
+    pub calibration: Option<CalibrationView>,
     /// The take that is being made or becoming keys.
     pub take: Option<TakeView>,
     /// Takes of the show, in order of their names.
@@ -211,6 +214,13 @@ impl Snapshot {
         for stretch in self.feasibility.iter().flat_map(|f| f.stretches.iter()) {
             digest.real(stretch.from_secs);
             digest.real(stretch.factor);
+        }
+        if let Some(calibration) = &self.calibration {
+            // Nothing where nothing is calibrated, so that older journals still digest alike.
+            digest.text(&calibration.instruction);
+            digest.text(&calibration.seen);
+            digest.text(calibration.result.as_deref().unwrap_or_default());
+            digest.text(calibration.fault.as_deref().unwrap_or_default());
         }
         for note in &self.notes {
             digest.real(note.at_secs);

@@ -179,6 +179,11 @@ impl Known {
     }
 
     fn told(&self, one: Surveyed, slots: &BTreeMap<String, u16>) -> Found {
+        let identity = |address: &str| {
+            let unit = self.units.get(address);
+            unit.and_then(|unit| self.identities.identity(unit))
+                .unwrap_or_default()
+        };
         let plug = slots.get(&one.found.address).map(|&slot| {
             let profile = one.matches.first().cloned();
             let baud = profile.as_deref().and_then(|key| self.profiles.input(key).ok());
@@ -187,6 +192,7 @@ impl Known {
                 name: profile.clone().unwrap_or_else(by_itself),
                 slot,
                 baud: baud.map_or(0, InputProfile::baud),
+                identity: identity(&one.found.address),
                 profile,
             }
         });

@@ -8,6 +8,7 @@ use std::time::Duration;
 use device::transport::{Transport, TransportError};
 use device::{Clock, VirtualClock};
 use ps300::value::Value;
+use rig::controls_calibration::Store;
 use rig::document::{self, NetworkFile, Show};
 use rig::journal::{Digest, Recorder, Script};
 use rig::{Command, Found, Live, NetworkEdit, NetworkLook, Ports, Profiles, Rig, RigOptions, Snapshot};
@@ -69,6 +70,7 @@ impl Stage {
             folder: None,
             profiles: Arc::new(Profiles::builtin()),
             inputs: Vec::new(),
+            calibrations: Store::in_memory(),
             puppet: None,
             recorder,
         };

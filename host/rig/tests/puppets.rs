@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use device::transport::{Transport, TransportError};
 use device::{Clock, VirtualClock};
+use rig::controls_calibration::Store;
 use rig::document::{self, Show};
 use rig::{
     Command, EditCommand, Found, Ports, Profiles, PuppetPose, PuppetPoseView, Rig, RigOptions, Snapshot,
@@ -39,6 +40,7 @@ impl Desk {
             folder: None,
             profiles: Arc::new(Profiles::builtin()),
             inputs: Vec::new(),
+            calibrations: Store::in_memory(),
             puppet: None,
             recorder: None,
         };

@@ -10,6 +10,7 @@ use device::transport::{Transport, TransportError};
 use device::{Clock, Codec, MonotonicClock, VirtualClock};
 use device_profiles::Profiles;
 use firmware_sim::{Firmware, SgiDialBox};
+use rig::controls_calibration::Store;
 use rig::{Command, Found, InputSpec, Ports, Rig, RigOptions, Snapshot};
 use std::hint::black_box;
 use std::path::PathBuf;
@@ -80,6 +81,7 @@ impl DialRig {
             folder: None,
             profiles: Arc::clone(&profiles),
             inputs: vec![input],
+            calibrations: Store::in_memory(),
             puppet: None,
             recorder: None,
         };

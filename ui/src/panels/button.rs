@@ -189,8 +189,11 @@ impl<'a> Button<'a> {
     }
 }
 
-/// The mark of the control that the Enter key would press.
+/// The mark of the control that the Enter key would press; whatever scrolls brings it to light.
 pub fn focus_ring(ui: &Ui, response: &Response) {
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
     if response.has_focus() {
         let rect = response.rect.expand(1.0);
         ui.painter().rect_stroke(

@@ -1,6 +1,6 @@
 //! The board of input devices: pictures to be looked at, and what hands on it want.
 
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use rig::{Command, ControlView, DeviceHealth, DeviceView, LearnCommand, LearningView, OutputView, Snapshot};
 use ui::panels::Board;
 use ui::render::picture::Picture;
@@ -8,7 +8,7 @@ use ui::render::picture::Picture;
 use crate::studio::{Bench, harness, keep, no_card};
 use crate::walker;
 
-fn controls(kind: &'static str, count: u8, first: u8) -> impl Iterator<Item = ControlView> {
+pub(crate) fn controls(kind: &'static str, count: u8, first: u8) -> impl Iterator<Item = ControlView> {
     (0..count).map(move |index| ControlView {
         number: first + index,
         name: format!("{kind} {}", index + 1),
@@ -42,10 +42,22 @@ fn controls(kind: &'static str, count: u8, first: u8) -> impl Iterator<Item = Co
             String::new()
         },
         mode: "pickup",
+        comes_to: match kind {
+            "dial" => "256.0 a turn".to_owned(),
+            "button" => String::new(),
+            "axis" => "-350 to 350".to_owned(),
+            _ => "0 to 1023".to_owned(),
+        },
+        calibrated: index == 2 && kind != "button",
     })
 }
 
-fn device(name: &str, title: &str, health: DeviceHealth, controls: Vec<ControlView>) -> DeviceView {
+pub(crate) fn device(
+    name: &str,
+    title: &str,
+    health: DeviceHealth,
+    controls: Vec<ControlView>,
+) -> DeviceView {
     DeviceView {
         name: name.to_owned(),
         instance: name.to_uppercase().replace('-', ""),
@@ -68,7 +80,7 @@ fn device(name: &str, title: &str, health: DeviceHealth, controls: Vec<ControlVi
 }
 
 /// Six devices: some well, one away, one that may not be opened, one that a driver holds.
-fn six() -> Snapshot {
+pub(crate) fn six() -> Snapshot {
     let rule = "KERNEL==\"hidraw*\", ATTRS{idVendor}==\"256c\", ATTRS{idProduct}==\"006d\", TAG+=\"uaccess\"";
     let mut dials = device(
         "dial-box",
@@ -134,7 +146,7 @@ fn six() -> Snapshot {
     }
 }
 
-fn board(
+pub(crate) fn board(
     seen: Snapshot,
     chosen: Option<&str>,
     size: [f32; 2],
@@ -148,7 +160,7 @@ fn board(
     harness
 }
 
-fn drawn(seen: Snapshot, chosen: Option<&str>, size: [f32; 2], name: &str) -> Picture {
+pub(crate) fn drawn(seen: Snapshot, chosen: Option<&str>, size: [f32; 2], name: &str) -> Picture {
     let mut harness = board(seen, chosen, size, true);
     let image = harness.render().expect("the adapter that started also draws");
     let picture = Picture {
@@ -235,6 +247,92 @@ fn a_label_is_written_by_typing() {
         "{:?}",
         harness.state().said
     );
+}
+
+#[test]
+fn keys_alone_write_a_label_and_try_an_output() {
+    let mut harness = board(six(), Some("dial-box"), [1280.0, 720.0], false);
+    harness.get_by_label("label of dial 2 of dial-box").focus();
+    harness.run_steps(2);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(3);
+    assert!(
+        !harness
+            .state()
+            .said
+            .iter()
+            .any(|it| matches!(it, Command::SetControlLabel { .. }))
+    );
+    harness.event(egui::Event::Text("Elbow".to_owned()));
+    harness.run_steps(2);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(2);
+    harness.get_by_label("try lamp 2 of dial-box").focus();
+    harness.run_steps(2);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(2);
+    let written = Command::SetControlLabel {
+        device: "dial-box".into(),
+        control: 2,
+        text: "Elbow".into(),
+    };
+    let tried = Command::TestOutput {
+        device: "dial-box".into(),
+        output: 1,
+    };
+    let said = &harness.state().said;
+    assert!(said.contains(&written) && said.contains(&tried), "{said:?}");
+}
+
+#[test]
+fn the_tab_key_gets_to_controls_that_are_scrolled_away() {
+    let mut harness = board(six(), Some("nanokontrol2"), [1280.0, 720.0], false);
+    assert!(
+        harness.query_by_label("button 24 of nanokontrol2").is_none(),
+        "it is far below"
+    );
+    for _ in 0..200 {
+        harness.key_press(egui::Key::Tab);
+        harness.run_steps(2);
+        let there = harness.query_by_label("button 24 of nanokontrol2");
+        if there.is_some_and(|node| node.accesskit_node().is_focused()) {
+            return;
+        }
+    }
+    panic!("the last control is out of reach of the keys");
+}
+
+#[test]
+fn ten_devices_fit_on_a_small_and_on_a_fine_screen() {
+    if no_card() {
+        return;
+    }
+    for scale in [1.0, 2.0] {
+        let mut seen = six();
+        for nth in 2..6 {
+            let slot = DeviceView {
+                slot: nth,
+                ..device(
+                    &format!("powermate{nth}"),
+                    "Griffin PowerMate",
+                    DeviceHealth::Present,
+                    controls("dial", 1, 1).collect(),
+                )
+            };
+            seen.devices.push(slot);
+        }
+        let mut harness = board(seen, Some("nanokontrol2"), [1280.0, 800.0], true);
+        harness.set_pixels_per_point(scale);
+        harness.run_steps(3);
+        let image = harness.render().expect("the adapter that started also draws");
+        let picture = Picture {
+            width: image.width(),
+            height: image.height(),
+            rgba: image.into_raw(),
+        };
+        assert_eq!(picture.width, (1280.0 * scale) as u32);
+        keep(&picture, &format!("controls-ten-at-{scale}.png"));
+    }
 }
 
 #[test]

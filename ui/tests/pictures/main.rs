@@ -1,5 +1,6 @@
 //! Pictures, looked at once by a person and from then on by these tests.
 
+mod calibrate;
 mod controls;
 mod hands;
 mod patch;

@@ -178,11 +178,10 @@ pub fn run(
     let joints: Vec<String> = profile.joints().map(|joint| joint.name.clone()).collect();
     let journal = Journal::new();
     let world = World::new(WorldOptions {
-        show: show.clone(),
         profiles: Arc::clone(&options.profiles),
         equipment: equipment.clone(),
         journal: Some(Box::new(journal.clone())),
-        dut: None,
+        ..WorldOptions::new(show.clone())
     })?;
     let told = if solo {
         Solo::new(world, seen).tell()?

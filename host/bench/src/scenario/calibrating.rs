@@ -1,7 +1,10 @@
-//! Words for calibrating: `calibrate begin|zero|end`, and what came of it.
+//! Words for calibrating: `calibrate begin|zero|end` of a puppet, others of a control; and what came of it.
 
+use rig::Command;
 use rig::calibration::{Proposal, Reading, Zero};
 
+use super::controls;
+use super::doing::Doing;
 use super::words::{Parsed, Words};
 use crate::stand::HandError;
 use crate::world::World;
@@ -16,8 +19,12 @@ pub(super) enum Calibrate {
 
 impl Calibrate {
     /// Reads what stands behind `calibrate`.
-    pub(super) fn parse(words: &mut Words<'_>) -> Parsed<Self> {
-        Ok(match words.one_of(&["begin", "zero", "end"])? {
+    pub(super) fn parse(words: &mut Words<'_>) -> Parsed<Doing> {
+        let steps: Vec<&str> = ["begin", "zero", "end"]
+            .into_iter()
+            .chain(controls::STEPS)
+            .collect();
+        let step = match words.one_of(&steps)? {
             0 => Self::Begin {
                 joint: if words.take("joint") {
                     Some(words.text("a joint")?)
@@ -26,6 +33,10 @@ impl Calibrate {
                 },
             },
             1 => Self::Zero,
+            of_control @ 3.. => {
+                let asked = controls::calibrate(steps[of_control], words)?;
+                return Ok(Doing::Ask(Command::CalibrateControl(asked)));
+            }
             _ => {
                 let mut reading = Reading::default();
                 if words.take("in") {
@@ -39,7 +50,8 @@ impl Calibrate {
                 }
                 Self::End(reading)
             }
-        })
+        };
+        Ok(Doing::Calibrate(step))
     }
 
     pub(super) fn act(&self, world: &mut World) -> Result<(), HandError> {

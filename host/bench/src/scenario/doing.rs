@@ -18,6 +18,7 @@ const PRESS_SECS: f64 = 0.08;
 /// Words that begin a doing.
 pub(super) const VERBS: &[&str] = &[
     "turn",
+    "slide",
     "press",
     "hold",
     "release",
@@ -129,7 +130,8 @@ impl Doing {
                 }
             }
             "hand" => Self::Horn(HornHand::parse(words)?),
-            "calibrate" => Self::Calibrate(Calibrate::parse(words)?),
+            "calibrate" => Calibrate::parse(words)?,
+            "slide" => slide(words)?,
             "mark" => Self::Mark,
             _ => json(column, words)?,
         })
@@ -234,6 +236,22 @@ fn turn(words: &mut Words<'_>) -> Parsed<Doing> {
         Movement::Turn {
             control,
             by,
+            over_secs,
+        },
+    ))
+}
+
+/// `slide N to SHARE`: faders, knobs and axes are numbered among themselves, from 1.
+fn slide(words: &mut Words<'_>) -> Parsed<Doing> {
+    let control = words.whole("a fader, knob or axis", 1..=127)? as u8 - 1;
+    words.expect("to")?;
+    let to = words.number("a place", -1.0..=1.0)?;
+    let over_secs = over(words)?;
+    Ok(Doing::Hand(
+        DIAL_BOX,
+        Movement::Slide {
+            control,
+            to,
             over_secs,
         },
     ))

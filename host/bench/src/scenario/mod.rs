@@ -7,6 +7,7 @@
 
 mod calibrating;
 mod check;
+mod controls;
 mod doing;
 mod horn;
 mod input;

@@ -1,5 +1,6 @@
 //! Playing a scenario: time goes from line to line, and what is expected of every moment is judged at each step.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use device_profiles::Profiles;
@@ -148,6 +149,7 @@ fn begin(scenario: &Scenario, options: &RunOptions, seed: u64, dut: Option<&Dut>
         show,
         profiles,
         equipment,
+        calibrations: BTreeMap::new(),
         journal: None,
         dut: dut.cloned(),
     })

@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use device_profiles::{Control as Group, ControlKind, ControlUnit};
+use device_profiles::{Control as Group, ControlClass, ControlKind, ControlUnit};
 use ps300::value::{Kinds, Value};
 
 use super::bound::Bound;
@@ -13,6 +13,7 @@ use super::gears::{Gear, with_dead_zone};
 use super::inlets::PAGES;
 use super::pickup::{Moment, Pickup, Way};
 use super::shown::VALUE_SECS;
+use crate::controls_calibration::AxisCalibration;
 
 /// The mode of what springs back and goes by its speed.
 pub(crate) const RATE: &str = "rate";
@@ -44,14 +45,24 @@ pub(crate) struct Control {
     pub(crate) name: String,
     pub(crate) kind: ControlKind,
     pub(crate) unit: &'static str,
-    /// Counts at its ends.
-    range: [i32; 2],
+    /// Counts at its ends, as the profile has them.
+    pub(crate) range: [i32; 2],
+    /// The same as a hand measured them.
+    measured: Option<AxisCalibration>,
     counts_per_turn: f64,
+    /// As the profile has it.
+    pub(crate) counts_per_turn_built: f64,
+    /// What it said last of where it is.
+    pub(crate) counts: Option<i32>,
+    /// It is being calibrated and drives nothing.
+    pub(crate) muted: bool,
     /// Share of the range below which a change is noise.
     noise: f64,
     /// Share of the deflection that is the middle.
     pub(crate) zone: f64,
     zone_built: f64,
+    /// What the network told it instead.
+    zone_told: Option<f64>,
     pub(crate) pickup: Pickup,
     pub(crate) gear: Gear,
     pub(crate) button: Button,
@@ -167,6 +178,10 @@ impl Control {
         let range = group.range.filter(|[low, high]| low != high).unwrap_or([0, 1023]);
         let half = (f64::from(range[1]) - f64::from(range[0])).abs() / 2.0;
         let zone = f64::from(group.dead_zone) / half;
+        let counts_per_turn = group.counts_per_turn.filter(|it| *it > 0.0).unwrap_or_else(|| {
+            // A ring without a word of its own is once round.
+            f64::from((range[1] - range[0]).unsigned_abs()) + 1.0
+        });
         let mut pickup = Pickup::default();
         pickup.choose(way_built(group.kind));
         Self {
@@ -176,13 +191,15 @@ impl Control {
             kind: group.kind,
             unit: unit(group.kind, group.unit),
             range,
-            counts_per_turn: group.counts_per_turn.filter(|it| *it > 0.0).unwrap_or_else(|| {
-                // A ring without a word of its own is once round.
-                f64::from((range[1] - range[0]).unsigned_abs()) + 1.0
-            }),
+            measured: None,
+            counts_per_turn,
+            counts_per_turn_built: counts_per_turn,
+            counts: None,
+            muted: false,
             noise: group.noise_share.unwrap_or(0.0),
             zone,
             zone_built: zone,
+            zone_told: None,
             pickup,
             gear: Gear::default(),
             button: Button::default(),
@@ -228,8 +245,7 @@ impl Control {
 
     /// It stands at so many counts.
     pub(crate) fn stands(&mut self, counts: i32, at: At) -> Option<Value> {
-        let [low, high] = self.range.map(f64::from);
-        let share = ((f64::from(counts) - low) / (high - low)).clamp(0.0, 1.0);
+        let share = self.share_at(counts);
         let known = self.pickup.place();
         if self.kind == ControlKind::Axis {
             return self.deflected(share * 2.0 - 1.0, at);
@@ -249,6 +265,18 @@ impl Control {
     /// A hand is on it, though it is where it was.
     pub(crate) fn is_held(&mut self, at: At) {
         self.heard_secs = Some(at.secs);
+    }
+
+    /// A place in counts as a share of its range, 0.5 where it rests.
+    fn share_at(&self, counts: i32) -> f64 {
+        match self.measured {
+            Some(measured) if measured.rest.is_some() => f64::midpoint(measured.share(counts), 1.0),
+            Some(measured) => measured.share(counts),
+            None => {
+                let [low, high] = self.range.map(f64::from);
+                ((f64::from(counts) - low) / (high - low)).clamp(0.0, 1.0)
+            }
+        }
     }
 
     /// What springs back goes as it is pushed, unless it goes to a value that is known: then as any other.
@@ -360,6 +388,48 @@ impl Control {
         }
     }
 
+    /// Takes what a hand measured, or that nothing was. What it drives stays where it is: where the control is now
+    /// counts for nothing, so it has to be picked up.
+    pub(crate) fn calibrate(
+        &mut self,
+        per_turn: Option<f64>,
+        measured: Option<AxisCalibration>,
+    ) -> Option<Value> {
+        let per_turn = per_turn.unwrap_or(self.counts_per_turn_built);
+        if (per_turn, measured) == (self.counts_per_turn, self.measured) {
+            return None;
+        }
+        (self.counts_per_turn, self.measured) = (per_turn, measured);
+        self.choose_zone();
+        self.lost()
+    }
+
+    /// Whether a hand has measured it.
+    pub(crate) fn is_calibrated(&self) -> bool {
+        self.measured.is_some() || self.counts_per_turn != self.counts_per_turn_built
+    }
+
+    /// What its counts come to, in words; empty where that is not to be calibrated.
+    pub(crate) fn comes_to(&self) -> String {
+        match self.kind.class() {
+            ControlClass::Dial => format!("{:.1} a turn", self.counts_per_turn),
+            ControlClass::Axis => {
+                let [low, high] = self.measured.map_or(self.range, |measured| measured.ends);
+                match self.measured.and_then(|measured| measured.rest) {
+                    Some(rest) => format!("{low} to {high}, rests at {rest}"),
+                    None => format!("{low} to {high}"),
+                }
+            }
+            ControlClass::Button | ControlClass::Ring => String::new(),
+        }
+    }
+
+    /// Begins or ends being calibrated. Meanwhile it drives nothing, and it has to be picked up after.
+    pub(crate) fn mute(&mut self, on: bool) -> Option<Value> {
+        self.muted = on;
+        self.lost()
+    }
+
     /// The device is gone. What springs back is let go; all else stays where it is.
     pub(crate) fn lost(&mut self) -> Option<Value> {
         self.pickup.lose();
@@ -407,7 +477,7 @@ impl Control {
     /// Whether a hand is on it, as far as that can be told: nothing is sent back to it then.
     pub(crate) fn is_in_hand(&self, now_secs: f64) -> bool {
         let mut said = [self.heard_secs, self.moved_secs].into_iter().flatten();
-        self.touched || said.any(|at| now_secs - at < OWN_SECS)
+        self.muted || self.touched || said.any(|at| now_secs - at < OWN_SECS)
     }
 
     /// A value of its output as a share of its range, and back.
@@ -421,7 +491,8 @@ impl Control {
 
     /// The counts at a share of its range.
     pub(crate) fn counts_at(&self, share: f64) -> i32 {
-        let [low, high] = self.range.map(f64::from);
+        let ends = self.measured.map_or(self.range, |measured| measured.ends);
+        let [low, high] = ends.map(f64::from);
         (low + (high - low) * share.clamp(0.0, 1.0)).round() as i32
     }
 
@@ -479,7 +550,15 @@ impl Control {
 
     /// Takes a dead zone; none is what it was built with.
     pub(crate) fn set_zone(&mut self, zone: Option<f64>) {
-        self.zone = zone.unwrap_or(self.zone_built);
+        self.zone_told = zone;
+        self.choose_zone();
+    }
+
+    /// A rest that was measured has its own quiet middle.
+    fn choose_zone(&mut self) {
+        let rests = self.measured.is_some_and(|measured| measured.rest.is_some());
+        let built = if rests { 0.0 } else { self.zone_built };
+        self.zone = self.zone_told.unwrap_or(built);
     }
 }
 

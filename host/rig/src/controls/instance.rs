@@ -4,6 +4,7 @@
 //! it stays connected while the device is away.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use device::codec::{InputEvent, Surface};
 use device_profiles::{ControlClass, ControlKind, InputKind, InputProfile, OutputKind};
@@ -16,6 +17,7 @@ use super::pages::Pages;
 use super::rhythm::Rhythm;
 use super::shown::{self, Output};
 use super::tablet::{self, Tablet};
+use crate::controls_calibration::ControlsCalibration;
 
 /// Greatest number of an output: the command language has no more.
 const NUMBER_MAX: u8 = 127;
@@ -32,6 +34,9 @@ pub(crate) struct Instance {
     /// Places of controls, by class and number.
     classes: BTreeMap<ControlClass, Vec<usize>>,
     pub(crate) tablet: Option<Tablet>,
+    /// By what it is known again, and what was calibrated on it.
+    pub(crate) identity: String,
+    pub(crate) calibration: Arc<ControlsCalibration>,
     pub(crate) pages: Pages,
     pub(crate) outputs: Vec<Output>,
     /// One sender for each page; none before it is declared.
@@ -85,6 +90,8 @@ impl Instance {
             controls,
             classes,
             tablet: is_tablet.then(Tablet::default),
+            identity: String::new(),
+            calibration: Arc::default(),
             pages: Pages::default(),
             outputs,
             sources: Vec::new(),
@@ -166,6 +173,9 @@ impl Instance {
                 self.moves(ControlClass::Button, control, emit, |it| it.pressed(down, at))
             }
             InputEvent::Axis { control, value } => {
+                if let Some(control) = self.at(ControlClass::Axis, control) {
+                    control.counts = Some(value);
+                }
                 let touched = self.moves(ControlClass::Axis, control, emit, |it| it.stands(value, at));
                 self.shows_by_itself(control, at);
                 touched
@@ -199,7 +209,7 @@ impl Instance {
         emit: &mut tablet::Emit<'_>,
         hear: impl FnOnce(&mut Control) -> Option<Value>,
     ) -> Option<Touched> {
-        let control = self.at(class, number)?;
+        let control = self.at(class, number).filter(|it| !it.muted)?;
         let (number, was, known) = (control.number, control.value, control.pickup.place().is_some());
         if let Some(value) = hear(control) {
             emit(number, value);
@@ -232,6 +242,46 @@ impl Instance {
                 control.is_held(at);
             }
         }
+    }
+
+    /// Takes what was calibrated on it. Nothing that it drives moves by it.
+    pub(crate) fn calibrate(&mut self, calibration: Arc<ControlsCalibration>, emit: &mut tablet::Emit<'_>) {
+        for control in &mut self.controls {
+            let (mut per_turn, mut axis) = (None, None);
+            match control.kind.class() {
+                ControlClass::Dial => per_turn = calibration.dials.get(&control.of_class).copied(),
+                ControlClass::Axis => axis = calibration.axes.get(&control.of_class).copied(),
+                ControlClass::Button | ControlClass::Ring => {}
+            }
+            if let Some(value) = control.calibrate(per_turn, axis) {
+                emit(control.number, value);
+            }
+        }
+        if let Some(tablet) = &mut self.tablet {
+            tablet.calibrate(calibration.tablet.as_ref(), emit);
+        }
+        self.calibration = calibration;
+    }
+
+    /// One control, or the surface where none is named, begins or ends being calibrated.
+    pub(crate) fn mute(&mut self, number: Option<u8>, on: bool, emit: &mut tablet::Emit<'_>) {
+        match number {
+            Some(number) => {
+                if let Some(value) = self.control(number).and_then(|it| it.mute(on)) {
+                    emit(number, value);
+                }
+            }
+            None => {
+                if let Some(tablet) = &mut self.tablet {
+                    tablet.mute(on, emit);
+                }
+            }
+        }
+    }
+
+    /// Whether a dial is being calibrated.
+    pub(crate) fn mutes_dial(&mut self, number: u16) -> bool {
+        self.at(ControlClass::Dial, number).is_some_and(|it| it.muted)
     }
 
     /// The device is gone: what springs back is let go, everything else stays where it is.

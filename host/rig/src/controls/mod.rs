@@ -24,6 +24,7 @@ pub(crate) mod tablet;
 pub mod view;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use device::codec::{Feedback, InputEvent, Surface};
 use device_profiles::{ControlClass, InputProfile};
@@ -101,6 +102,16 @@ impl Controls {
         self.instances.get(place).is_some_and(|it| it.is_desk)
     }
 
+    /// Whether an event is of a dial that is being calibrated, so that the desk has none of it.
+    pub(crate) fn mutes(&mut self, place: usize, event: &InputEvent) -> bool {
+        let InputEvent::Dial { control, .. } = *event else {
+            return false;
+        };
+        self.instances
+            .get_mut(place)
+            .is_some_and(|it| it.mutes_dial(control))
+    }
+
     pub(crate) fn find(&self, device: &str) -> Option<usize> {
         self.instances.iter().position(|it| it.device == device)
     }
@@ -138,7 +149,7 @@ impl Controls {
         }
     }
 
-    /// Takes an event of the device at a place; what it sends goes to `emit`.
+    /// Takes an event of the device at a place; what it sends goes to `emit`. Returns what a hand did.
     pub(crate) fn hear(
         &mut self,
         place: usize,
@@ -146,15 +157,13 @@ impl Controls {
         surface: Option<Surface>,
         mut at: At,
         emit: &mut tablet::Emit<'_>,
-    ) {
+    ) -> Option<Touched> {
         at.fine |= self.fine;
-        let Some(instance) = self.instances.get_mut(place) else {
-            return;
-        };
+        let instance = self.instances.get_mut(place)?;
         instance.rhythm.hear(at.secs);
-        if let Some(touched) = instance.hear(event, at, surface, emit) {
-            self.touched(place, touched);
-        }
+        let touched = instance.hear(event, at, surface, emit)?;
+        self.touched(place, touched);
+        Some(touched)
     }
 
     /// Time passes: what is pushed and goes by its speed goes on. What it sends goes to `emit`, with its sender.
@@ -244,6 +253,7 @@ impl Controls {
         view.jitter_ms = instance.rhythm.jitter_ms(now_secs);
         view.page = instance.pages.now;
         view.page_follows = instance.pages.follows;
+        view.calibration = Arc::clone(&instance.calibration);
         view.controls = control_views(instance, now_secs);
         view.outputs = (0..)
             .zip(&instance.outputs)
@@ -273,6 +283,7 @@ fn control_views(instance: &Instance, now_secs: f64) -> Vec<ControlView> {
             unit: "share",
             range: Some(range),
             picked_up: true,
+            calibrated: instance.calibration.tablet.is_some(),
             ..ControlView::default()
         };
         [
@@ -294,6 +305,8 @@ fn control_views(instance: &Instance, now_secs: f64) -> Vec<ControlView> {
         bound: control.bound.iter().map(Bound::words).collect(),
         label: control.label(page, now_secs),
         mode: control.mode(),
+        comes_to: control.comes_to(),
+        calibrated: control.is_calibrated(),
     });
     surface.chain(controls).collect()
 }

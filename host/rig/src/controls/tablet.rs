@@ -7,6 +7,9 @@ use device::codec::{PenSample, Surface, Tool};
 use glam::{DVec2, DVec3};
 use ps300::value::{Kind, Kinds, Value};
 
+use crate::controls_calibration::tablet::Sheet;
+use crate::controls_calibration::{PressureCurve, TabletMapping};
+
 /// Number of outputs a surface has; the controls beside it are numbered on from there.
 pub(crate) const OUTPUTS: u8 = 16;
 
@@ -43,16 +46,113 @@ pub(crate) struct Tablet {
     pressed: bool,
     tool: Option<(Tool, Option<u64>)>,
     fingers: Vec<u16>,
+    /// What a hand measured of it.
+    mapping: Option<TabletMapping>,
+    /// The tip is down, by the pressure that was measured.
+    tip: bool,
+    /// A tool is near, whether or not that is passed on.
+    near: bool,
+    quiet: Quiet,
     /// Where it was last, −1 to 1, and with what pressure, 0 to 1.
     pub(crate) position: DVec2,
     pub(crate) pressure: f64,
 }
 
+/// Whether what tools do is passed on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Quiet {
+    /// It is.
+    #[default]
+    No,
+    /// It is being calibrated.
+    Calibrated,
+    /// It was, or its mapping was exchanged under a tool: once that is lifted.
+    UntilAway,
+}
+
 impl Tablet {
+    /// Takes another mapping. A tool that is near counts as lifted until it is, so that nothing steps.
+    pub(crate) fn calibrate(&mut self, mapping: Option<&TabletMapping>, emit: &mut Emit<'_>) {
+        if self.mapping.as_ref() == mapping {
+            return;
+        }
+        self.leave(emit);
+        self.mapping = mapping.cloned();
+        if self.quiet == Quiet::No && self.near {
+            self.quiet = Quiet::UntilAway;
+        }
+    }
+
+    /// Begins or ends being calibrated: meanwhile tools count as lifted, and until they are.
+    pub(crate) fn mute(&mut self, on: bool, emit: &mut Emit<'_>) {
+        if on {
+            self.leave(emit);
+        }
+        self.quiet = match (on, self.near) {
+            (true, _) => Quiet::Calibrated,
+            (false, true) => Quiet::UntilAway,
+            (false, false) => Quiet::No,
+        };
+    }
+
+    /// Tools and fingers count as lifted.
+    pub(crate) fn leave(&mut self, emit: &mut Emit<'_>) {
+        if self.in_range {
+            let tool = self.tool.map_or(Tool::Pen, |(tool, _)| tool);
+            let away = PenSample::hovering(tool, 0, 0);
+            self.pass(&away.leaving(), Surface::flat([1; 2], [1.0; 2], 1), emit);
+        }
+        if !self.fingers.is_empty() {
+            self.fingers.clear();
+            emit(15, Value::Integer(0));
+        }
+    }
+
     /// One sample, in the order the original's outputs would have sent it.
     pub(crate) fn hear(&mut self, sample: &PenSample, surface: Surface, emit: &mut Emit<'_>) {
+        self.near = sample.in_range;
+        if self.quiet == Quiet::UntilAway && !sample.in_range {
+            self.quiet = Quiet::No;
+        }
+        if self.quiet != Quiet::No {
+            return;
+        }
+        let place = self.place([sample.x_counts, sample.y_counts], surface);
+        // Outside the area that counts is as far away as out of reach.
+        let mut sample = if place.is_some() {
+            *sample
+        } else {
+            sample.leaving()
+        };
+        sample.tip = self.tip(&sample, surface);
+        self.pass(&sample, surface, emit);
+    }
+
+    /// A place on it; none outside the area that counts.
+    fn place(&self, counts: [u32; 2], surface: Surface) -> Option<DVec2> {
+        match &self.mapping {
+            Some(mapping) => mapping.place(counts, &Sheet::from(surface)).map(DVec2::from),
+            None => Some(tablet_position(counts, surface)),
+        }
+    }
+
+    /// Whether the tip is down: as the tablet says, or by the pressure that was measured.
+    fn tip(&mut self, sample: &PenSample, surface: Surface) -> bool {
+        let measured = self.mapping.as_ref().map(|mapping| mapping.pressure);
+        let measured = measured.filter(|curve| *curve != PressureCurve::default());
+        self.tip = match measured.filter(|_| surface.pressure_max > 0) {
+            Some(curve) => {
+                sample.in_range && curve.tip(self.tip, sample.pressure_counts, surface.pressure_max)
+            }
+            None => sample.tip,
+        };
+        self.tip
+    }
+
+    fn pass(&mut self, sample: &PenSample, surface: Surface, emit: &mut Emit<'_>) {
         self.proximity(sample, emit);
-        let position = tablet_position([sample.x_counts, sample.y_counts], surface);
+        let place = self.place([sample.x_counts, sample.y_counts], surface);
+        let position = place.filter(|_| sample.in_range).unwrap_or(self.position);
         if sample.in_range {
             self.position = position;
             emit(1, Value::Vector2(position));
@@ -103,8 +203,11 @@ impl Tablet {
         if surface.pressure_max == 0 {
             return;
         }
-        let pressure = f64::from(sample.pressure_counts) / f64::from(surface.pressure_max);
-        self.pressure = if sample.in_range { pressure.min(1.0) } else { 0.0 };
+        let curve = self.mapping.as_ref().map(|mapping| mapping.pressure);
+        let pressure = curve
+            .unwrap_or_default()
+            .share(sample.pressure_counts, surface.pressure_max);
+        self.pressure = if sample.in_range { pressure } else { 0.0 };
         if sample.in_range || self.pressed {
             emit(7, Value::Real(self.pressure));
         }
@@ -113,6 +216,11 @@ impl Tablet {
 
     /// A finger on the surface, or leaving it.
     pub(crate) fn touch(&mut self, id: u16, at: Option<[u32; 2]>, surface: Surface, emit: &mut Emit<'_>) {
+        if self.quiet != Quiet::No {
+            return;
+        }
+        let place = at.and_then(|at| self.place(at, surface));
+        let at = at.filter(|_| place.is_some());
         let known = self.fingers.iter().position(|&finger| finger == id);
         match (at, known) {
             (Some(_), None) => self.fingers.push(id),
@@ -121,8 +229,7 @@ impl Tablet {
             }
             _ => {}
         }
-        if let Some(at) = at {
-            let place = tablet_position(at, surface);
+        if let Some(place) = place {
             emit(14, Value::Vector3(DVec3::new(place.x, place.y, f64::from(id))));
         }
         if at.is_some() == known.is_none() {
@@ -181,3 +288,7 @@ fn tablet_position(counts: [u32; 2], surface: Surface) -> DVec2 {
     // Counts grow downwards; `0 − y` rather than `−y`, which would make the middle −0.
     DVec2::new(from_middle(0), 0.0 - from_middle(1))
 }
+
+#[cfg(test)]
+#[path = "tablet_tests.rs"]
+mod tests;

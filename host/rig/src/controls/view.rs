@@ -1,5 +1,9 @@
 //! Input devices as windows see them.
 
+use std::sync::Arc;
+
+use crate::controls_calibration::{ControlsCalibration, Sheet};
+
 /// An input device.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeviceView {
@@ -31,6 +35,10 @@ pub struct DeviceView {
     pub page: u8,
     /// Whether the page follows the selected link or joint.
     pub page_follows: bool,
+    /// What was calibrated on it.
+    pub calibration: Arc<ControlsCalibration>,
+    /// Its tablet, once it has said how large it is.
+    pub sheet: Option<Sheet>,
     /// Its controls, in the order of the profile.
     pub controls: Vec<ControlView>,
     /// What it can show, in the order of the profile.
@@ -106,6 +114,10 @@ pub struct ControlView {
     pub label: String,
     /// The word of its mode.
     pub mode: &'static str,
+    /// What its counts come to, in words; empty where that is not to be calibrated.
+    pub comes_to: String,
+    /// Whether a hand has measured it; it is as the profile has it otherwise.
+    pub calibrated: bool,
 }
 
 /// One output of a device.

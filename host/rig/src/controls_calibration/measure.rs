@@ -39,8 +39,13 @@ impl Turning {
         let (most, least) = (self.forth.max(self.back), self.forth.min(self.back));
         if turns == 0 || most - least < COUNTS_PER_TURN_MIN * u64::from(turns) {
             return Err(format!(
-                "the dial gave {} counts in {turns} turns; turn it clockwise by whole turns, from mark to mark",
-                most - least
+                "the dial gave {} counts; turn it clockwise by {}, from mark to mark",
+                most - least,
+                if turns == 1 {
+                    "a whole turn".to_owned()
+                } else {
+                    format!("{turns} whole turns")
+                },
             ));
         }
         if least as f64 > most as f64 * BACK_SHARE_MAX {
@@ -56,13 +61,13 @@ impl Turning {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sweeping {
     seen: Option<[i32; 2]>,
-    first: Option<i32>,
+    last: Option<i32>,
 }
 
 impl Sweeping {
     /// It stands there now.
     pub fn moved(&mut self, value: i32) {
-        self.first.get_or_insert(value);
+        self.last = Some(value);
         let [low, high] = self.seen.get_or_insert([value; 2]);
         (*low, *high) = ((*low).min(value), (*high).max(value));
     }
@@ -72,11 +77,16 @@ impl Sweeping {
         self.seen
     }
 
-    /// The ends, the one it began at first, against the range that the profile gives.
+    /// The ends, the one it stands at now last, against the range that the profile gives.
     pub fn ends(&self, range: [i32; 2]) -> Result<[i32; 2], String> {
-        let (Some([low, high]), Some(first)) = (self.seen, self.first) else {
+        let (Some([low, high]), Some(last)) = (self.seen, self.last) else {
             return Err("the control did not move; take it to one end and then to the other".into());
         };
+        if low == high {
+            return Err(format!(
+                "the control did not move from {low}; take it to one end and then to the other"
+            ));
+        }
         let wanted = (f64::from(range[1]) - f64::from(range[0])).abs() * TRAVEL_SHARE_MIN;
         let travel = f64::from(high) - f64::from(low);
         if travel < wanted.max(1.0) {
@@ -84,9 +94,9 @@ impl Sweeping {
                 "the control went only from {low} to {high}; take it to one end and then to the other"
             ));
         }
-        // Where it began is the end that is nearer to it.
-        let began_low = f64::from(first) - f64::from(low) <= f64::from(high) - f64::from(first);
-        Ok(if began_low { [low, high] } else { [high, low] })
+        // It was taken to the upper end last, and hands let go a little beside it.
+        let is_high = f64::from(last) - f64::from(low) >= f64::from(high) - f64::from(last);
+        Ok(if is_high { [low, high] } else { [high, low] })
     }
 }
 
@@ -97,14 +107,14 @@ pub struct Resting {
 }
 
 impl Resting {
-    /// It came to rest there.
-    pub fn rested(&mut self, value: i32) {
-        self.rests.push(value);
-    }
-
-    /// The same, if it moved at all.
+    /// It came to rest there, if it moved at all.
     pub fn rests_at(&mut self, value: Option<i32>) {
         self.rests.extend(value);
+    }
+
+    /// Where it came to rest so far.
+    pub fn all(&self) -> &[i32] {
+        &self.rests
     }
 
     /// How often it did.
@@ -163,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_begin_where_the_hand_did() {
+    fn ends_end_where_the_hand_did() {
         let ends = |values: &[i32], range| {
             let mut sweeping = Sweeping::default();
             for &value in values {
@@ -173,6 +183,12 @@ mod tests {
         };
         assert_eq!(ends(&[12, 500, 1011, 800], [0, 1023]), Ok([12, 1011]));
         assert_eq!(ends(&[1011, 500, 12], [0, 1023]), Ok([1011, 12]));
+        assert_eq!(
+            ends(&[700, 12, 1011], [0, 1023]),
+            Ok([12, 1011]),
+            "it began somewhere"
+        );
+        assert!(ends(&[500, 500], [0, 1023]).is_err_and(|it| it.contains("did not move")));
         assert!(ends(&[], [0, 1023]).is_err());
         assert!(ends(&[500, 600], [0, 1023]).is_err());
     }
@@ -181,10 +197,10 @@ mod tests {
     fn a_spring_that_never_comes_back_to_the_same_place_has_a_dead_zone() {
         let mut resting = Resting::default();
         assert!(resting.rest().is_err());
-        resting.rested(3);
+        resting.rests_at(Some(3));
         assert!(resting.rest().is_err());
-        resting.rested(-1);
-        resting.rested(2);
+        resting.rests_at(Some(-1));
+        resting.rests_at(Some(2));
         let (rest, dead) = resting.rest().expect("three rests");
         assert_eq!(rest, 1);
         assert!(

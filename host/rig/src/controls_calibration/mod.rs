@@ -3,23 +3,36 @@
 //!
 //! *Knows* how counts become places and shares: a tablet's area, turn, mirror and pressure ([`tablet`], [`pressure`]),
 //! counts in a dial's turn, ends of faders and the rest of what springs back ([`measure`]); the steps a person goes
-//! through ([`flow`]); and where it is kept ([`store`]). Pure but for the store: counts in, numbers out.
+//! through ([`flow`], `told`, `propose`); and where it is kept ([`store`]). Pure but for the store: counts in, numbers out.
 //! *Must not know* wires, profiles' formats, or what a control drives.
-//! *Start reading* at [`ControlsCalibration`], then [`flow`].
+//! *Start reading* at [`ControlsCalibration`], then [`flow`]; `controls` applies what is here, `rig::calibrate` connects it.
 
+pub mod command;
 pub mod flow;
 pub mod measure;
 pub mod pressure;
+mod propose;
 pub mod store;
+pub mod subject;
 pub mod tablet;
+mod told;
+pub mod view;
 
 use std::collections::BTreeMap;
 
+use device_profiles::ControlClass;
 use serde::{Deserialize, Serialize};
 
-pub use flow::{CalibrateControl, Calibrating, CalibrationView};
+pub use command::CalibrateControl;
+pub use flow::Calibrating;
 pub use pressure::PressureCurve;
-pub use tablet::{Area, TabletMapping};
+pub use store::Store;
+pub use subject::Subject;
+pub use tablet::{Area, Sheet, TabletMapping};
+pub use view::{CalibrationView, Measured};
+
+/// Counts in a turn that a dial may have, either way round.
+const PER_TURN: std::ops::RangeInclusive<f64> = 1.0..=1e7;
 
 /// Everything that was calibrated on one device. What is not here is as the profile has it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -42,10 +55,36 @@ impl ControlsCalibration {
         *self == Self::default()
     }
 
-    /// What a turn of a dial comes to, turns; by the profile's counts where the dial was not calibrated.
-    pub fn turns(&self, control: u16, delta_counts: i32, counts_per_turn: f64) -> f64 {
-        let per_turn = self.dials.get(&control).copied().unwrap_or(counts_per_turn);
-        f64::from(delta_counts) / per_turn
+    /// One control is as the profile has it.
+    pub fn forget(&mut self, class: ControlClass, control: u16) {
+        match class {
+            ControlClass::Dial => drop(self.dials.remove(&control)),
+            ControlClass::Axis => drop(self.axes.remove(&control)),
+            ControlClass::Button | ControlClass::Ring => {}
+        }
+    }
+
+    /// What is wrong with it, of what came from a file; `None` if nothing is.
+    pub fn unsound(&self) -> Option<String> {
+        for (control, per_turn) in &self.dials {
+            if !PER_TURN.contains(&per_turn.abs()) {
+                let (least, most) = (PER_TURN.start(), PER_TURN.end());
+                return Some(format!(
+                    "dial {control}: counts in a turn must be {least} to {most} either way, found {per_turn}"
+                ));
+            }
+        }
+        for (control, axis) in &self.axes {
+            if axis.ends[0] == axis.ends[1] {
+                return Some(format!("axis {control}: its ends must differ"));
+            }
+            if axis.dead_counts < 0 {
+                return Some(format!(
+                    "axis {control}: a quiet middle cannot be less than nothing"
+                ));
+            }
+        }
+        self.tablet.as_ref().and_then(TabletMapping::unsound)
     }
 }
 
@@ -95,13 +134,28 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn dials_count_as_they_were_measured_and_others_as_the_profile_says() {
-        let calibration = ControlsCalibration {
-            dials: BTreeMap::from([(3, 200.0), (4, -256.0)]),
+    fn what_would_divide_by_nothing_is_unsound() {
+        let dial = |per_turn| ControlsCalibration {
+            dials: BTreeMap::from([(3, per_turn)]),
             ..ControlsCalibration::default()
         };
-        let turns = |control, counts| calibration.turns(control, counts, 256.0);
-        assert_eq!((turns(3, 100), turns(4, 64), turns(0, 64)), (0.5, -0.25, 0.25));
+        assert_eq!((dial(200.0).unsound(), dial(-256.0).unsound()), (None, None));
+        for per_turn in [0.0, -0.5, f64::NAN, f64::INFINITY] {
+            assert!(dial(per_turn).unsound().is_some(), "{per_turn}");
+        }
+        let axis = |ends, dead_counts| ControlsCalibration {
+            axes: BTreeMap::from([(
+                0,
+                AxisCalibration {
+                    ends,
+                    rest: None,
+                    dead_counts,
+                },
+            )]),
+            ..ControlsCalibration::default()
+        };
+        assert_eq!(axis([1000, 0], 0).unsound(), None);
+        assert!(axis([5, 5], 0).unsound().is_some() && axis([0, 5], -1).unsound().is_some());
     }
 
     #[test]

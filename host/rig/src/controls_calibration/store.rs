@@ -8,42 +8,60 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::ControlsCalibration;
+use crate::document::FileError;
+use crate::document::source::Source;
 
 /// The version written.
 const VERSION: u64 = 1;
 /// The file's name in the user's folder.
 pub const FILE: &str = "controls.toml";
+/// What to do about a file that cannot be understood.
+const HINT: &str = "it is left as it is, and nothing calibrated is kept; mend it or move it away";
 
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stored {
     version: u64,
     #[serde(default)]
-    device: BTreeMap<String, ControlsCalibration>,
+    device: BTreeMap<String, Sound>,
+}
+
+/// A calibration that nothing is wrong with. Checked while it is read, so that the error has its place.
+#[derive(Debug, Serialize)]
+#[serde(transparent)]
+struct Sound(ControlsCalibration);
+
+impl<'de> Deserialize<'de> for Sound {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let read = ControlsCalibration::deserialize(from)?;
+        match read.unsound() {
+            Some(fault) => Err(D::Error::custom(fault)),
+            None => Ok(Self(read)),
+        }
+    }
 }
 
 /// Calibrations cannot be kept or read.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     /// The file is there and cannot be understood.
-    #[error("{file}: {found}; it is left as it is, and nothing calibrated is kept. Mend it or move it away")]
-    Read {
-        /// The file.
-        file: String,
-        /// What was wrong.
-        found: String,
-    },
+    #[error(transparent)]
+    Read(#[from] FileError),
     /// It cannot be written.
-    #[error("{file}: cannot write: {source}")]
+    #[error("{file}: cannot write: {source}; what was calibrated holds until the end of the session")]
     Write {
         /// The file.
         file: String,
         /// Why.
         source: std::io::Error,
     },
+    /// It was not understood when it was read, so it is not written over.
+    #[error("what was calibrated holds until the end of the session: {0}")]
+    Unkept(String),
 }
 
 /// What is known of every device, by its identity: the profile's key and the serial number or place that tells it from
@@ -51,6 +69,8 @@ pub enum StoreError {
 #[derive(Debug, Default)]
 pub struct Store {
     file: Option<PathBuf>,
+    /// Why nothing is kept, where the file could not be understood.
+    fault: Option<String>,
     devices: BTreeMap<String, ControlsCalibration>,
 }
 
@@ -60,29 +80,48 @@ impl Store {
         Self::default()
     }
 
-    /// What a folder holds; a file that is not there holds nothing yet.
+    /// In memory only, with what was known before.
+    pub fn knowing(devices: BTreeMap<String, ControlsCalibration>) -> Self {
+        Self {
+            devices,
+            ..Self::default()
+        }
+    }
+
+    /// The one in the user's folder; one that cannot be understood is left alone, and nothing is kept.
+    pub fn of_user(folder: Option<&Path>) -> Self {
+        let Some(folder) = folder else {
+            return Self::in_memory();
+        };
+        Self::open(folder).unwrap_or_else(|error| Self {
+            fault: Some(error.to_string()),
+            ..Self::default()
+        })
+    }
+
+    /// Reads the file in a folder; one that is not there yet has nothing in it.
     pub fn open(folder: &Path) -> Result<Self, StoreError> {
         let file = folder.join(FILE);
-        let read = |found: String| StoreError::Read {
-            file: file.display().to_string(),
-            found,
+        let devices = if file.exists() {
+            read(&file).map_err(|error| error.with_hint(HINT))?
+        } else {
+            BTreeMap::new()
         };
-        let devices = match fs::read_to_string(&file) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => BTreeMap::new(),
-            Err(error) => return Err(read(error.to_string())),
-            Ok(text) => {
-                let stored: Stored = toml::from_str(&text).map_err(|error| read(error.to_string()))?;
-                if stored.version != VERSION {
-                    return Err(read(format!(
-                        "it has version {}, and version {VERSION} is known here",
-                        stored.version
-                    )));
-                }
-                stored.device
-            }
-        };
-        let file = Some(file);
-        Ok(Self { file, devices })
+        Ok(Self {
+            file: Some(file),
+            fault: None,
+            devices,
+        })
+    }
+
+    /// Why nothing is kept, where that is so.
+    pub fn fault(&self) -> Option<&str> {
+        self.fault.as_deref()
+    }
+
+    /// All that is known, by identity.
+    pub fn devices(&self) -> &BTreeMap<String, ControlsCalibration> {
+        &self.devices
     }
 
     /// What was calibrated on a device.
@@ -98,16 +137,41 @@ impl Store {
         } else {
             self.devices.insert(identity.to_owned(), calibration);
         }
+        if let Some(fault) = &self.fault {
+            return Err(StoreError::Unkept(fault.clone()));
+        }
         let Some(file) = &self.file else { return Ok(()) };
+        let devices = self.devices.clone();
         let stored = Stored {
             version: VERSION,
-            device: self.devices.clone(),
+            device: devices.into_iter().map(|(key, it)| (key, Sound(it))).collect(),
         };
         write(file, &stored).map_err(|source| StoreError::Write {
             file: file.display().to_string(),
             source,
         })
     }
+}
+
+fn read(file: &Path) -> Result<BTreeMap<String, ControlsCalibration>, FileError> {
+    #[derive(Deserialize)]
+    struct Head {
+        version: toml::Spanned<u64>,
+    }
+    let source = Source::open(file)?;
+    let fault = |error: &toml::de::Error| {
+        let at = error.span().map_or(0, |span| span.start);
+        source.error(at, error.message())
+    };
+    // A newer file may have what is unknown here: its version is what to say of it.
+    let head: Head = toml::from_str(source.text()).map_err(|error| fault(&error))?;
+    if *head.version.get_ref() != VERSION {
+        let found = head.version.get_ref();
+        let words = format!("expected version {VERSION}, found {found}; a newer dialrig wrote it");
+        return Err(source.error(head.version.span().start, words));
+    }
+    let stored: Stored = toml::from_str(source.text()).map_err(|error| fault(&error))?;
+    Ok(stored.device.into_iter().map(|(key, it)| (key, it.0)).collect())
 }
 
 fn write(file: &Path, stored: &Stored) -> std::io::Result<()> {
@@ -172,17 +236,35 @@ mod tests {
     }
 
     #[test]
-    fn files_that_cannot_be_understood_are_left_alone() {
-        for text in [
-            "version = 2\n",
-            "version = 1\nsomething = 3\n",
-            "not toml at all [",
+    fn files_that_cannot_be_understood_are_left_alone_and_told_with_their_place() {
+        for (text, place) in [
+            ("version = 2\n", ":1:11: expected version 1, found 2"),
+            ("version = 1\nsomething = 3\n", ":2:1:"),
+            ("not toml at all [", ":1:5:"),
+            (
+                "version = 1\n[device.\"box/A1\"]\ntablet = 3\n",
+                ":3:10: invalid type",
+            ),
+            (
+                "version = 1\n\n[device.\"box/A1\".dials]\n3 = 0.0\n",
+                ":3:9: dial 3: counts in a turn",
+            ),
         ] {
             let folder = tempfile::tempdir().expect("a folder");
             let file = folder.path().join(FILE);
             fs::write(&file, text).expect("written");
             let error = Store::open(folder.path()).expect_err(text).to_string();
             assert!(error.contains(FILE) && error.contains("left as it is"), "{error}");
+            assert!(error.contains(place), "{error} has no {place}");
+            let mut store = Store::of_user(Some(folder.path()));
+            assert_eq!(store.fault(), Some(&*error));
+            let kept = store.keep("box/A1", calibration());
+            assert!(
+                kept.expect_err("not kept")
+                    .to_string()
+                    .contains("end of the session")
+            );
+            assert_eq!(store.of("box/A1"), Some(&calibration()), "until the end it holds");
             assert_eq!(fs::read_to_string(&file).expect("it is there"), text);
         }
     }

@@ -4,6 +4,7 @@
 //! turned about its middle, mirrored, cut to the wanted proportion, and then spans −1…1 on its longer side, the shorter
 //! one centred with the aspect kept, y up, as the network's tablet has it.
 
+use device::codec::Surface;
 use serde::{Deserialize, Serialize};
 
 /// Millimetres in an inch.
@@ -44,12 +45,21 @@ pub struct TabletMapping {
 }
 
 /// The sheet a mapping is for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sheet {
     /// Largest x and y, counts.
     pub max_counts: [u32; 2],
     /// Counts per inch.
     pub counts_per_inch: [f64; 2],
+}
+
+impl From<Surface> for Sheet {
+    fn from(surface: Surface) -> Self {
+        Self {
+            max_counts: surface.max_counts,
+            counts_per_inch: surface.counts_per_inch,
+        }
+    }
 }
 
 impl Sheet {
@@ -70,13 +80,10 @@ impl Sheet {
 
 impl TabletMapping {
     /// Where a place is: −1…1 on the longer side, y up; `None` outside the area. A place a tenth of a millimetre
-    /// outside still is on its edge, so that an edge can be drawn along.
+    /// outside still is on its edge, so that an edge can be drawn along; of a whole sheet there is no outside.
     pub fn place(&self, counts: [u32; 2], sheet: &Sheet) -> Option<[f64; 2]> {
         const EDGE_MM: f64 = 0.1;
-        let area = self.area.unwrap_or(Area {
-            corner_mm: [0.0; 2],
-            size_mm: sheet.size_mm(),
-        });
+        let area = self.area_of(sheet);
         let at = sheet.place_mm(counts);
         let from_middle = [0, 1].map(|axis| at[axis] - area.corner_mm[axis] - area.size_mm[axis] / 2.0);
         // y up from here on.
@@ -87,7 +94,7 @@ impl TabletMapping {
         let mut place = [0.0; 2];
         for axis in 0..2 {
             let along = turned[axis];
-            if along.abs() > half[axis] + EDGE_MM {
+            if along.abs() > half[axis] + EDGE_MM && !self.is_whole() {
                 return None;
             }
             let along = along.clamp(-half[axis], half[axis]);
@@ -95,6 +102,35 @@ impl TabletMapping {
             place[axis] = along / half[0].max(half[1]).max(f64::MIN_POSITIVE);
         }
         Some(place)
+    }
+
+    /// The corners of what is drawn on, millimetres of the sheet: upper left, upper right, lower right and lower left, as
+    /// the hand sees them.
+    pub fn outline_mm(&self, sheet: &Sheet) -> [[f64; 2]; 4] {
+        let area = self.area_of(sheet);
+        let (sin, cos) = self.sin_cos();
+        let half = self.half_mm(area);
+        [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| {
+            let (x, y) = (x * half[0], y * half[1]);
+            // Back from the hand's axes to the sheet's, whose y goes down.
+            let (right, up) = (x * cos + y * sin, y * cos - x * sin);
+            [
+                area.corner_mm[0] + area.size_mm[0] / 2.0 + right,
+                area.corner_mm[1] + area.size_mm[1] / 2.0 - up,
+            ]
+        })
+    }
+
+    fn area_of(&self, sheet: &Sheet) -> Area {
+        self.area.unwrap_or(Area {
+            corner_mm: [0.0; 2],
+            size_mm: sheet.size_mm(),
+        })
+    }
+
+    /// Whether the whole sheet counts, however it lies.
+    fn is_whole(&self) -> bool {
+        self.area.is_none() && self.aspect.is_none() && self.turned_deg.rem_euclid(90.0) == 0.0
     }
 
     /// Exact for quarter turns, so that a turned tablet reaches its edges exactly.
@@ -124,13 +160,31 @@ impl TabletMapping {
         [h * aspect, h]
     }
 
-    /// What is wrong with it for a sheet; `None` if nothing is.
-    pub fn fault(&self, sheet: &Sheet) -> Option<String> {
+    /// What is wrong with it whatever the sheet; `None` if nothing is.
+    pub fn unsound(&self) -> Option<String> {
         if !self.turned_deg.is_finite() {
             return Some("a turn must be a number of degrees".into());
         }
         if let Some(aspect) = self.aspect.filter(|aspect| !(0.05..=20.0).contains(aspect)) {
             return Some(format!("an aspect must be 0.05 to 20, found {aspect}"));
+        }
+        let numbers = self.area.iter().flat_map(|area| [area.corner_mm, area.size_mm]);
+        if !numbers.flatten().all(f64::is_finite) {
+            return Some("an area must be of numbers".into());
+        }
+        if self
+            .area
+            .is_some_and(|area| area.size_mm.iter().any(|side| *side < SIDE_MM_MIN))
+        {
+            return Some(format!("the sides of an area must be {SIDE_MM_MIN} mm at least"));
+        }
+        self.pressure.fault()
+    }
+
+    /// What is wrong with it for a sheet; `None` if nothing is.
+    pub fn fault(&self, sheet: &Sheet) -> Option<String> {
+        if let Some(fault) = self.unsound() {
+            return Some(fault);
         }
         let area = self.area?;
         let size = sheet.size_mm();
@@ -208,6 +262,31 @@ mod tests {
         near(mapping.place([3_000, 1_000], &SHEET), [-1.0, 1.0]);
         near(mapping.place([5_000, 3_000], &SHEET), [1.0, -1.0]);
         assert_eq!(mapping.place([2_500, 2_000], &SHEET), None);
+    }
+
+    #[test]
+    fn the_outline_is_where_the_corners_come_from() {
+        for (turned_deg, aspect) in [(0.0, None), (90.0, None), (30.0, Some(1.5)), (-135.0, Some(0.8))] {
+            let mapping = TabletMapping {
+                turned_deg,
+                aspect,
+                area: Some(Area {
+                    corner_mm: [20.0, 5.0],
+                    size_mm: [60.0, 40.0],
+                }),
+                ..TabletMapping::default()
+            };
+            let [a, b, c, d] = mapping.outline_mm(&SHEET);
+            let half = mapping.half_mm(mapping.area_of(&SHEET));
+            let longer = half[0].max(half[1]);
+            let (x, y) = (half[0] / longer, half[1] / longer);
+            for (corner, want) in [(a, [-x, y]), (b, [x, y]), (c, [x, -y]), (d, [-x, -y])] {
+                let counts = corner.map(|mm| (mm / MM_PER_INCH * 2540.0).round() as u32);
+                let place = mapping.place(counts, &SHEET).expect("a corner is inside");
+                let off = (place[0] - want[0]).abs().max((place[1] - want[1]).abs());
+                assert!(off < 0.01, "{turned_deg}: {place:?}, wanted {want:?}");
+            }
+        }
     }
 
     #[test]

@@ -74,8 +74,9 @@ impl Inputs {
         noticed: &mut dyn FnMut(Change),
     ) {
         let named = |seat: &Seat| seat.taken.is_none() && seat.spec.address == found.address;
-        if self.seats.iter().any(named) {
+        if let Some(seat) = self.seats.iter_mut().find(|seat| named(seat)) {
             // Whoever named it knows what he wants of it.
+            self.identified += u64::from(seat.is_known_by(plug));
             return;
         }
         let is_its = |seat: &Seat| seat.taken.as_ref().is_some_and(|taken| taken.is(plug));
@@ -90,6 +91,7 @@ impl Inputs {
         let Some(seat) = self.seats.get_mut(place) else {
             return;
         };
+        self.identified += u64::from(seat.is_known_by(plug));
         if seat.open {
             return;
         }
@@ -203,6 +205,15 @@ impl Inputs {
 }
 
 impl Seat {
+    /// Takes over by what it is told apart; whether that is news.
+    fn is_known_by(&mut self, plug: &Plug) -> bool {
+        if plug.identity.is_empty() || self.identity == plug.identity {
+            return false;
+        }
+        self.identity.clone_from(&plug.identity);
+        true
+    }
+
     /// It is there (again), perhaps at another address, perhaps not to be opened yet.
     fn come_back(&mut self, found: &Found, now: Instant) {
         let moved = self.spec.address != found.address;

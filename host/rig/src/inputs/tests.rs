@@ -25,6 +25,7 @@ impl Sockets {
                 profile: Some("sgi-dialbox".to_owned()),
                 slot,
                 baud: 9600,
+                identity: String::new(),
             }),
             ..Found::default()
         });
@@ -231,6 +232,7 @@ fn what_describes_itself_is_taken_without_a_profile_and_what_says_nothing_is_not
                 profile: None,
                 slot: desk.sockets.found.len() as u16 + 1,
                 baud: 0,
+                identity: String::new(),
             }),
             ..Found::default()
         });

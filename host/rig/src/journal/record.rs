@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
 use crate::command::Command;
+use crate::controls_calibration::ControlsCalibration;
 use crate::ports::Found;
 
 /// Version of the journal's lines.
@@ -21,6 +22,11 @@ pub enum Record {
         version: u32,
         /// Files of the show, name to text.
         show: BTreeMap<String, String>,
+    },
+    /// What was calibrated on input devices, by what they are known by; not there where nothing was.
+    Calibrated {
+        /// All of it.
+        devices: BTreeMap<String, ControlsCalibration>,
     },
     /// A step begins.
     Step {

@@ -10,6 +10,7 @@ use device_profiles::Line;
 
 use super::record::{Digest, Ending, Failure, Record, VERSION, to_hex};
 use crate::command::{Command, Touch};
+use crate::controls_calibration::ControlsCalibration;
 use crate::ports::{Found, Ports, TouchError};
 use crate::snapshot::Snapshot;
 
@@ -48,6 +49,13 @@ impl Recorder {
     fn lock(&self) -> MutexGuard<'_, Inner> {
         // A panic elsewhere leaves whole lines behind, so the journal may go on.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(crate) fn calibrations(&self, devices: &BTreeMap<String, ControlsCalibration>) {
+        if !devices.is_empty() {
+            let devices = devices.clone();
+            self.lock().line(&Record::Calibrated { devices });
+        }
     }
 
     pub(crate) fn step(&self, now: Instant, commands: &[Command]) {

@@ -7,6 +7,7 @@ use device::transport::{Boundary, Transport, TransportError};
 
 use super::record::{Ending, Failure, Record, VERSION, from_hex};
 use crate::command::{Command, Touch};
+use crate::controls_calibration::ControlsCalibration;
 use crate::ports::{Found, Ports, TouchError};
 
 /// A journal cannot be replayed.
@@ -33,6 +34,8 @@ pub enum JournalError {
 pub struct Script {
     /// Files of the show, name to text.
     pub show: BTreeMap<String, String>,
+    /// What was calibrated on input devices when it began.
+    pub calibrated: BTreeMap<String, ControlsCalibration>,
     /// Time and commands of every step.
     pub steps: Vec<Replayed>,
     /// What came out when it was recorded; missing when the recording was cut short.
@@ -71,6 +74,7 @@ impl Script {
         let mut ending = None;
         let mut ports: Vec<Opening> = Vec::new();
         let mut lists = VecDeque::new();
+        let mut calibrated = BTreeMap::new();
         for (index, line) in text.lines().enumerate() {
             let bad = |found: String| JournalError::Line {
                 line: index + 1,
@@ -87,6 +91,7 @@ impl Script {
                         found: format!("version {version} on line {}", index + 1),
                     });
                 }
+                Record::Calibrated { devices } => calibrated = devices,
                 Record::Step { now, commands } => {
                     steps.push(Replayed {
                         now: Instant::from_nanos(now),
@@ -118,6 +123,7 @@ impl Script {
         })?;
         Ok(Self {
             show,
+            calibrated,
             steps,
             ending,
             ports: ports.into(),
@@ -169,6 +175,7 @@ fn happen(ports: &mut [Opening], record: Record) -> Result<(), String> {
             port, call, failure, ..
         } => opening(ports, port)?.reads.push_back((call, Err(failure), None)),
         Record::Start { .. }
+        | Record::Calibrated { .. }
         | Record::Step { .. }
         | Record::Open { .. }
         | Record::Listed { .. }

@@ -56,6 +56,7 @@ impl Rig {
             | Command::PinDevice { .. } => self.control(command),
             Command::StartCapture { devices } => self.start_captures(devices),
             Command::StopCapture { devices } => self.stop_captures(devices),
+            Command::CalibrateControl(calibrate) => self.calibrate_control(calibrate),
             Command::Take(take) => self.ask_for_take(take),
             Command::Save => self.save(),
         };

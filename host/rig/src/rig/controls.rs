@@ -58,6 +58,7 @@ impl Rig {
     /// Where everything stands that controls may drive, and which page is up.
     fn refresh_controls(&mut self) {
         self.meet_new_devices();
+        self.recall_calibrations();
         let mut controls = std::mem::take(&mut self.controls);
         controls.selected(self.focus());
         self.controls = controls;
@@ -86,6 +87,7 @@ impl Rig {
         });
         // What was plugged in just now may have spoken already.
         self.meet_new_devices();
+        self.recall_calibrations();
         if !self.captures.is_idle() {
             self.captures.take_in(&self.takes.tapes);
         }
@@ -120,9 +122,10 @@ impl Rig {
     /// Takes an event at its own time, not later than now.
     fn hear(&mut self, place: usize, event: &Stamped<InputEvent>, source: Source) {
         let secs = event.at.min(self.now).since(self.began).as_secs_f64();
-        let wiring = &mut self.wiring;
-        wiring.pass_to(secs);
-        if self.controls.is_desk(place) {
+        self.wiring.pass_to(secs);
+        let source = self.measured_source(place, &event.what, source);
+        if self.controls.is_desk(place) && !self.controls.mutes(place, &event.what) {
+            let wiring = &mut self.wiring;
             self.desk
                 .hear(&event.what, source, secs, &mut |instance, output, value| {
                     wiring.hear(instance, output, value);
@@ -134,16 +137,19 @@ impl Rig {
             fine: false,
         };
         let from = self.controls.instances.get(place).and_then(Instance::source);
-        self.controls
+        let wiring = &mut self.wiring;
+        let touched = self
+            .controls
             .hear(place, &event.what, source.surface, at, &mut |output, value| {
                 if let Some(from) = from {
                     wiring.hear_from(from.outlet(output), value);
                 }
             });
+        self.calibration_hears(place, &event.what, touched);
     }
 
     /// A device came or went: what it drives stays where it is.
-    fn noticed(&mut self, change: &Change) {
+    pub(super) fn noticed(&mut self, change: &Change) {
         let (level, words) = match change {
             Change::Came(name) => (NoteLevel::Info, format!("{name} is there")),
             Change::Gone(name, why) => (
@@ -153,6 +159,7 @@ impl Rig {
             Change::Absent(name, why) => (NoteLevel::Warning, format!("{name}: {why}")),
         };
         self.note(level, words);
+        self.calibration_notices(change);
         let (Change::Came(name) | Change::Gone(name, _) | Change::Absent(name, _)) = change;
         let place = self.controls.find(name);
         let Some(instance) = place.and_then(|at| self.controls.instances.get_mut(at)) else {
@@ -399,7 +406,7 @@ impl Rig {
 
 #[cfg(test)]
 #[path = "controls_bench.rs"]
-mod bench;
+pub(super) mod bench;
 #[cfg(test)]
 #[path = "controls_cost.rs"]
 mod cost;

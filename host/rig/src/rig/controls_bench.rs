@@ -10,6 +10,7 @@ use device_profiles::{InputProfile, Profiles};
 
 use super::*;
 use crate::command::{NetworkEdit, ViewCommand};
+use crate::controls_calibration::Store;
 use crate::document::{NetworkFile, Show};
 use crate::ports::{Found, Ports};
 use crate::rig::RigOptions;
@@ -80,22 +81,22 @@ impl Ports for NoPorts {
 }
 
 /// A rig with one device that is put in by hand: no transport, no codec.
-pub(super) struct Bench {
-    pub(super) rig: Rig,
+pub(in crate::rig) struct Bench {
+    pub(in crate::rig) rig: Rig,
     clock: VirtualClock,
-    pub(super) seen: Arc<Snapshot>,
-    pub(super) shown: Vec<Feedback>,
+    pub(in crate::rig) seen: Arc<Snapshot>,
+    pub(in crate::rig) shown: Vec<Feedback>,
 }
 
 impl Bench {
     /// A rig with a program and a Nano that is there.
-    pub(super) fn new(program: &str) -> Self {
+    pub(in crate::rig) fn new(program: &str) -> Self {
         let mut bench = Self::without_device(program);
         bench.plug("nano");
         bench
     }
 
-    pub(super) fn without_device(program: &str) -> Self {
+    pub(in crate::rig) fn without_device(program: &str) -> Self {
         let show = Show {
             name: "hands".into(),
             puppet: Some("so-101".into()),
@@ -111,6 +112,7 @@ impl Bench {
             folder: None,
             profiles: Arc::new(Profiles::builtin()),
             inputs: Vec::new(),
+            calibrations: Store::in_memory(),
             puppet: None,
             recorder: None,
         };
@@ -131,27 +133,27 @@ impl Bench {
         bench
     }
 
-    pub(super) fn plug(&mut self, name: &str) {
+    pub(in crate::rig) fn plug(&mut self, name: &str) {
         let profile: InputProfile = toml::from_str(NANO).expect("a profile");
         self.rig.meet(name, &profile);
         self.rig.noticed(&Change::Came(name.into()));
         self.step(&[]);
     }
 
-    pub(super) fn step(&mut self, commands: &[Command]) -> &Snapshot {
+    pub(in crate::rig) fn step(&mut self, commands: &[Command]) -> &Snapshot {
         self.clock.advance(Duration::from_millis(10));
         self.seen = self.rig.step(&mut commands.iter().cloned());
         self.shown.append(&mut self.rig.controls.told);
         &self.seen
     }
 
-    pub(super) fn wait(&mut self, secs: f64) {
+    pub(in crate::rig) fn wait(&mut self, secs: f64) {
         for _ in 0..(secs * 100.0) as u32 {
             self.step(&[]);
         }
     }
 
-    pub(super) fn say(&mut self, device: &str, event: InputEvent) {
+    pub(in crate::rig) fn say(&mut self, device: &str, event: InputEvent) {
         // As a step does before it listens.
         self.rig.refresh_controls();
         let place = self.rig.controls.find(device).expect("it is known");
@@ -166,14 +168,14 @@ impl Bench {
         self.rig.hear(place, &stamped, source);
     }
 
-    pub(super) fn fader(&mut self, control: u16, value: i32) -> &Snapshot {
+    pub(in crate::rig) fn fader(&mut self, control: u16, value: i32) -> &Snapshot {
         self.say("nano", InputEvent::Axis { control, value });
         self.step(&[]);
         self.step(&[])
     }
 
     /// The same slowly: no two of one movement.
-    pub(super) fn slowly(&mut self, control: u16, values: &[i32]) -> &Snapshot {
+    pub(in crate::rig) fn slowly(&mut self, control: u16, values: &[i32]) -> &Snapshot {
         for &value in values {
             self.wait(0.2);
             self.fader(control, value);
@@ -181,22 +183,22 @@ impl Bench {
         &self.seen
     }
 
-    pub(super) fn azimuth_deg(&self) -> f64 {
+    pub(in crate::rig) fn azimuth_deg(&self) -> f64 {
         self.seen.view.azimuth_rad.to_degrees()
     }
 
-    pub(super) fn commands(&mut self, text: &str) {
+    pub(in crate::rig) fn commands(&mut self, text: &str) {
         self.step(&[Command::Network(NetworkEdit::Commands(text.to_owned()))]);
     }
 
-    pub(super) fn turn_view(&mut self, by_deg: f64) {
+    pub(in crate::rig) fn turn_view(&mut self, by_deg: f64) {
         self.step(&[Command::View(ViewCommand::Turn {
             azimuth_by_rad: by_deg.to_radians(),
             elevation_by_rad: 0.0,
         })]);
     }
 
-    pub(super) fn notes(&self) -> String {
+    pub(in crate::rig) fn notes(&self) -> String {
         self.seen
             .notes
             .iter()
@@ -205,7 +207,7 @@ impl Bench {
             .join("\n")
     }
 
-    pub(super) fn view(&self) -> DeviceView {
+    pub(in crate::rig) fn view(&self) -> DeviceView {
         let mut view = DeviceView {
             name: "nano".into(),
             ..DeviceView::default()

@@ -48,6 +48,7 @@ impl Rig {
             feasibility: self.rehearsing.as_ref().map(rehearse::Rehearsing::feasibility),
             devices: self.device_views(),
             learning: self.learning_view(),
+            calibration: self.calibrations.view(),
             take: self.take_view(),
             takes: show.takes.keys().cloned().collect(),
             undo: self.history.undo_words().map(str::to_owned),

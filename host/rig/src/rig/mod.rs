@@ -5,6 +5,7 @@
 //! to the devices; the snapshot.
 
 mod apply;
+mod calibrate;
 mod captures;
 mod controls;
 mod learn;
@@ -15,6 +16,7 @@ mod takes;
 mod teach;
 use teach::Held;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -25,6 +27,7 @@ use motion::clip::Clip;
 use crate::capture::Captures;
 use crate::command::Command;
 use crate::controls::Controls;
+use crate::controls_calibration::{ControlsCalibration, Store};
 use crate::desk::Desk;
 use crate::document::Show;
 use crate::history::History;
@@ -40,6 +43,7 @@ use crate::snapshot::{NoteLevel, Snapshot, ViewState};
 use crate::stage::Stage;
 use crate::timeline::Timeline;
 use crate::wiring::{DeviceMessage, Wiring, shapes};
+use calibrate::Calibrations;
 use rehearse::Rehearsing;
 use takes::Takes;
 
@@ -56,6 +60,8 @@ pub struct RigOptions {
     pub profiles: Arc<Profiles>,
     /// Input devices to use.
     pub inputs: Vec<InputSpec>,
+    /// What was calibrated on input devices, and where that is kept.
+    pub calibrations: Store,
     /// The servo puppet to drive.
     pub puppet: Option<PuppetSpec>,
     /// Where to journal; its ports must be the rig's, see [`crate::journal::RecordingPorts`].
@@ -93,6 +99,7 @@ pub struct Rig {
     view: ViewState,
     desk: Desk,
     controls: Controls,
+    calibrations: Calibrations,
     /// The joint that was posed last, while no link was.
     joint_in_hand: Option<String>,
     inputs: Inputs,
@@ -128,9 +135,13 @@ impl Rig {
             folder,
             profiles,
             inputs,
+            calibrations,
             puppet,
             recorder,
         } = options;
+        if let Some(recorder) = &recorder {
+            recorder.calibrations(calibrations.devices());
+        }
         let inputs = Inputs::new(inputs, &profiles)?;
         let puppet = puppet
             .map(|spec| Seat::new(spec, &show.demands, &profiles, Arc::clone(&clock)))
@@ -161,6 +172,7 @@ impl Rig {
             view: ViewState::default(),
             desk: Desk::default(),
             controls,
+            calibrations: Calibrations::new(calibrations),
             joint_in_hand: None,
             inputs,
             heard: Vec::new(),
@@ -182,8 +194,9 @@ impl Rig {
             autosaved_at_secs: 0.0,
             steps: 0,
         };
-        for remark in remarks {
-            rig.note(NoteLevel::Warning, remark);
+        let told = remarks.into_iter().map(|remark| (NoteLevel::Warning, remark));
+        for (level, remark) in told.chain(rig.calibrations.fault().map(|fault| (NoteLevel::Error, fault))) {
+            rig.note(level, remark);
         }
         rig.set_stage();
         rig.set_clip();
@@ -351,6 +364,11 @@ impl Rig {
     /// The network and all that was done to it, as text that loads to the same behaviour.
     pub fn network_text(&self) -> String {
         self.wiring.text()
+    }
+
+    /// What was calibrated on input devices, by what they are known by.
+    pub fn calibrated(&self) -> &BTreeMap<String, ControlsCalibration> {
+        self.calibrations.all()
     }
 
     /// The show as it is now.

@@ -9,6 +9,7 @@ use std::time::Duration;
 use super::{Rehearsing, Rig};
 use crate::command::{Command, ControlCommand, TakeCommand};
 use crate::controls::instance::Instance;
+use crate::controls_calibration::ControlsCalibration;
 use crate::document::{Show, is_file_name};
 use crate::snapshot::{NoteLevel, TakeView};
 use crate::stage::Stage;
@@ -45,6 +46,7 @@ struct Recording {
 
 struct Marked {
     profile: String,
+    calibration: ControlsCalibration,
     address: String,
     from: Mark,
 }
@@ -77,6 +79,12 @@ impl Rig {
                 }
                 if takes.recording.is_some() || takes.working.is_some() {
                     return Err("a take is being made already; stop it first, or wait for its keys".into());
+                }
+                if self.calibrations.view().is_some() {
+                    return Err(
+                        "a control is being calibrated, which no take keeps; keep what came of it, or cancel it"
+                            .into(),
+                    );
                 }
                 if self.teaching {
                     return Err(
@@ -195,6 +203,7 @@ impl Rig {
             if let Some(from) = self.takes.tapes.hold(&view.name) {
                 let marked = Marked {
                     profile: view.profile.clone(),
+                    calibration: self.calibration_for_take(&view.name),
                     address: view.address.clone(),
                     from,
                 };
@@ -235,6 +244,7 @@ impl Rig {
         for (device, marked) in marks {
             let heard = tapes.heard(&device, marked.from).map(|heard| Heard {
                 profile: marked.profile,
+                calibration: marked.calibration,
                 address: marked.address,
                 ..heard
             });

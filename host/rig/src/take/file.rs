@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::{Heard, Reel, STEPS_MAX, StageStart, Start, Take};
 use crate::command::{Command, Side};
 use crate::controls::standing::DeviceStanding;
+use crate::controls_calibration::ControlsCalibration;
 use crate::document::FileError;
 use crate::snapshot::{TransportView, ViewState};
 
@@ -94,6 +95,8 @@ struct DeviceFile {
     opened: String,
     before: String,
     during: String,
+    #[serde(default, skip_serializing_if = "ControlsCalibration::is_empty")]
+    calibration: ControlsCalibration,
 }
 
 /// The text of a take.
@@ -107,6 +110,7 @@ pub(crate) fn write(take: &Take) -> String {
         profile: heard.profile.clone(),
         address: heard.address.clone(),
         reports: heard.reports,
+        calibration: heard.calibration.clone(),
         opened: time_words(heard.opened),
         before: said(&heard.before),
         during: said(&heard.during),
@@ -306,8 +310,12 @@ fn read_device(file: DeviceFile) -> Result<Heard, String> {
         })?;
         Ok(read.records.into_iter().collect())
     };
+    if let Some(fault) = file.calibration.unsound() {
+        return Err(format!("calibration: {fault}"));
+    }
     Ok(Heard {
         reports: file.reports,
+        calibration: file.calibration,
         opened: time(&file.opened).ok_or("expected seconds as `opened`")?,
         before: records(&file.before)?,
         during: records(&file.during)?,

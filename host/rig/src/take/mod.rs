@@ -33,6 +33,7 @@ use motion::FigurePose;
 
 use crate::command::{Command, Side};
 use crate::controls::standing::DeviceStanding;
+use crate::controls_calibration::ControlsCalibration;
 use crate::snapshot::{TransportView, ViewState};
 
 /// Steps one take may have: an hour and more at 200 a second.
@@ -112,6 +113,8 @@ pub struct Heard {
     pub address: String,
     /// Whether its line keeps reports apart.
     pub reports: bool,
+    /// What was calibrated on it when the take began.
+    pub calibration: ControlsCalibration,
     /// When its line was opened.
     pub opened: Duration,
     /// What it had said before, as far as the meaning of the rest needs it.

@@ -16,8 +16,9 @@ use device_profiles::Profiles;
 
 use super::keys::Keys;
 use super::{Heard, Reel, Take};
+use crate::controls_calibration::{ControlsCalibration, Store};
 use crate::document::Show;
-use crate::inputs::InputSpec;
+use crate::inputs::{self, InputSpec};
 use crate::ports::{Found, Plug, Ports};
 use crate::rig::{Rig, RigOptions};
 
@@ -62,6 +63,7 @@ impl Rerun {
             show: show.with_clip_chosen(&take.start.clip),
             folder: None,
             profiles: Arc::clone(profiles),
+            calibrations: Store::knowing(calibrated(&take, &spec)),
             inputs: specs.map(spec).collect(),
             puppet: None,
             recorder: None,
@@ -166,6 +168,19 @@ impl Rerun {
     }
 }
 
+/// What was calibrated on the devices of a take, which nothing but their names tells apart there: named ones by profile
+/// and address, those that describe themselves by the name alone.
+fn calibrated(
+    take: &Take,
+    spec: &dyn Fn((&String, &Heard)) -> InputSpec,
+) -> BTreeMap<String, ControlsCalibration> {
+    let known = take.devices.iter().flat_map(|device| {
+        let (name, heard) = device;
+        [inputs::by_address(&spec(device)), name.clone()].map(|by| (by, heard.calibration.clone()))
+    });
+    known.collect()
+}
+
 /// Lines that devices of a take were on, one after another, by the device's name.
 type Lines = BTreeMap<String, VecDeque<Line>>;
 
@@ -239,6 +254,7 @@ impl Ports for TakePorts {
                 profile: None,
                 slot: 1,
                 baud: 0,
+                identity: name.clone(),
             }),
             ..Found::default()
         };

@@ -5,6 +5,7 @@ use super::frames::{Layout, MEASURED};
 use device::transport::memory::reports::{ReportDevice, ReportTransport, pair};
 use device::transport::{Transport, TransportError};
 use device::{Clock, VirtualClock};
+use rig::controls_calibration::Store;
 use rig::{Command, Found, InputSpec, Ports, Rig, RigOptions, Snapshot};
 use std::hint::black_box;
 use std::path::PathBuf;
@@ -60,6 +61,7 @@ impl Heard {
                 profile: MEASURED.to_owned(),
                 address: "sim:measured".to_owned(),
             }],
+            calibrations: Store::in_memory(),
             puppet: None,
             recorder: None,
         };

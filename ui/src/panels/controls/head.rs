@@ -16,6 +16,7 @@ pub(super) fn show(
     ui: &mut Ui,
     area: Rect,
     (seen, device): (&Snapshot, &DeviceView),
+    measuring: (&mut bool, bool),
     commands: &mut Commands<'_>,
 ) {
     let top = pos2(area.left(), area.top() + 9.0);
@@ -43,6 +44,7 @@ pub(super) fn show(
         rect
     };
     learn(ui, next(WIDTH), seen, commands);
+    calibrate(ui, next(WIDTH), device, measuring);
     capture(ui, next(WIDTH), device, commands);
     cable(ui, &mut next, device, commands);
     pages(ui, &mut next, device, commands);
@@ -84,6 +86,19 @@ fn learn(ui: &mut Ui, rect: Rect, seen: &Snapshot, commands: &mut Commands<'_>) 
             LearnCommand::Begin
         };
         commands.push(Command::Learn(asked));
+    }
+}
+
+/// What counts come to, instead of the controls. While something is measured that is what is shown.
+fn calibrate(ui: &mut Ui, rect: Rect, device: &DeviceView, (on, under_way): (&mut bool, bool)) {
+    let tip = "What its counts come to: turns of dials, ends of faders, a tablet's area and pressure, measured by hand.";
+    let name = format!("calibrate {}", device.name);
+    let button = Button::new("Calibrate", tip, "")
+        .named(&name)
+        .switch(*on || under_way)
+        .enabled(!under_way);
+    if button.show(ui, rect).clicked() {
+        *on = !*on;
     }
 }
 

@@ -42,7 +42,8 @@ pub(super) fn field(
         *editing = None;
         return;
     };
-    let entered = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
+    // The Enter that opened it is not the one that writes it.
+    let entered = open.begun && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
     let left = ui.input(|input| input.key_pressed(Key::Escape));
     if entered {
         commands.push(Command::SetControlLabel {

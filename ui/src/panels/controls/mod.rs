@@ -4,6 +4,7 @@
 //! its controls would be, with what to do about it. Everything else is for the hand on the real control: it is turned,
 //! and its cell lights up.
 
+mod calibrate;
 mod cell;
 mod gauge;
 mod head;
@@ -32,6 +33,8 @@ const CELL_HEIGHT: f32 = 78.0;
 #[derive(Default)]
 pub struct Controls {
     editing: Option<Editing>,
+    /// What its controls come to is shown, instead of the controls.
+    measuring: bool,
 }
 
 impl Panel for Controls {
@@ -98,9 +101,23 @@ impl Controls {
         commands: &mut Commands<'_>,
     ) {
         let head = Rect::from_min_max(area.min, pos2(area.right(), area.top() + HEAD));
-        head::show(ui, head, (seen, device), commands);
+        let under_way = seen
+            .calibration
+            .as_ref()
+            .is_some_and(|it| it.device == device.name);
+        head::show(
+            ui,
+            head,
+            (seen, device),
+            (&mut self.measuring, under_way),
+            commands,
+        );
         let below = Rect::from_min_max(pos2(area.left(), head.bottom() + theme::GAP), area.max);
         let below = trouble::show(ui, below, device);
+        if self.measuring || under_way {
+            calibrate::show(ui, below, (seen, device), commands);
+            return;
+        }
         let builder = UiBuilder::new().max_rect(below).id_salt(&device.name);
         ui.scope_builder(builder, |ui| {
             ui.spacing_mut().item_spacing = egui::Vec2::ZERO;
@@ -119,7 +136,8 @@ impl Controls {
             .max(1.0) as usize;
         for row in device.controls.chunks(count) {
             let (_, rect) = ui.allocate_space(vec2(width, CELL_HEIGHT + theme::GAP));
-            if !ui.is_rect_visible(rect) {
+            // A row more than is seen, so that keys alone get there.
+            if !ui.is_rect_visible(rect.expand(CELL_HEIGHT)) {
                 continue;
             }
             let cells = Rect::from_min_size(rect.min, vec2(width, CELL_HEIGHT));

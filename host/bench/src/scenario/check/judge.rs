@@ -5,6 +5,7 @@ use rig::{DeviceHealth, PuppetState, Snapshot};
 use super::servos::{servos, torque_is};
 use super::truth::{life, register, shaft};
 use super::{Aspect, Bound, COUNTERS, Check, Evidence, HEALTHS, Near, STATES, VIEW_PARTS};
+use crate::scenario::controls;
 use crate::scenario::input::{judge_device, judge_output};
 use crate::world::DIAL_BOX;
 
@@ -36,7 +37,7 @@ impl Bound {
 impl Check {
     /// Judges it; the words say what was found instead.
     pub(in crate::scenario) fn judge(&self, evidence: &Evidence<'_>) -> Result<(), String> {
-        let Evidence { seen, stand, hil, .. } = *evidence;
+        let Evidence { seen, hil, .. } = *evidence;
         match self {
             Self::Player { state, because } => player(seen, *state, because.as_deref()),
             Self::Joint { joint, aspect, near } => near.judge(
@@ -69,14 +70,7 @@ impl Check {
                 hil,
             ),
             Self::Label { control, text } => label(seen, *control, text),
-            Self::Display { control, text } => match stand.shown(DIAL_BOX) {
-                Ok(shown) => {
-                    let there = shown.labels.get(control).map_or("", String::as_str);
-                    fits(there == text, || format!("the display shows \"{there}\""))
-                }
-                // Nobody can read a real display but with eyes: what the rig means it to show has to do.
-                Err(_) => label(seen, *control, text),
-            },
+            Self::Display { control, text } => display(evidence, *control, text),
             Self::Lamp { lamp, on } => lamp_is(evidence, *lamp, *on),
             Self::Note(text) => fits(seen.notes.iter().any(|note| note.text.contains(text)), || {
                 let last = seen.notes.last().map_or("none", |note| note.text.as_str());
@@ -96,6 +90,12 @@ impl Check {
                 let there = seen.undo.as_deref().unwrap_or("");
                 fits(there == text, || format!("undo is \"{there}\""))
             }
+            Self::Said(said) => said.judge(seen),
+            Self::Control { device, number, near } => near.judge(
+                &format!("control {number} of {device}"),
+                controls::place(seen, device, *number)?,
+                hil,
+            ),
             Self::Calibrated(expected) => expected.judge(evidence.calibrated),
             Self::Watchdogs { bus, bound } => watchdogs(evidence, bus, *bound),
             Self::Shaft { joint, part, near } => shaft(evidence, joint, *part, *near),
@@ -205,6 +205,17 @@ fn label(seen: &Snapshot, control: u8, text: &str) -> Result<(), String> {
     let mut labels = dials.chain(seen.desk.keys.iter().map(|key| &key.label));
     let there = labels.nth(usize::from(control)).map_or("", String::as_str);
     fits(there == text, || format!("the label is \"{there}\""))
+}
+
+fn display(evidence: &Evidence<'_>, control: u8, text: &str) -> Result<(), String> {
+    match evidence.stand.shown(DIAL_BOX) {
+        Ok(shown) => {
+            let there = shown.labels.get(&control).map_or("", String::as_str);
+            fits(there == text, || format!("the display shows \"{there}\""))
+        }
+        // Nobody can read a real display but with eyes: what the rig means it to show has to do.
+        Err(_) => label(evidence.seen, control, text),
+    }
 }
 
 fn device_is(seen: &Snapshot, name: &str, health: &DeviceHealth) -> Result<(), String> {

@@ -11,6 +11,7 @@ use rig::calibration::Proposal;
 use rig::{DeviceHealth, PuppetState, Snapshot};
 
 use super::calibrating::Calibrated;
+use super::controls::Said;
 use super::input::{InputCheck, Outlet, Sent};
 use crate::stand::{JointTruth, Stand};
 
@@ -41,6 +42,7 @@ pub(in crate::scenario) const SUBJECTS: &[&str] = &[
     "register",
     "life",
     "calibration",
+    "control",
 ];
 
 /// A number and how near to it is near enough.
@@ -161,6 +163,12 @@ pub(in crate::scenario) enum Check {
     },
     Undo(String),
     Calibrated(Calibrated),
+    Said(Said),
+    Control {
+        device: String,
+        number: u8,
+        near: Near,
+    },
     Watchdogs {
         bus: String,
         bound: Bound,

@@ -4,6 +4,7 @@ use super::{
     Aspect, Bound, COUNTERS, Check, Conduct, EVENTS, HEALTHS, Near, SHAFT_PARTS, STATES, SUBJECTS, VIEW_PARTS,
 };
 use crate::scenario::calibrating::Calibrated;
+use crate::scenario::controls::{self, Said};
 use crate::scenario::input;
 use crate::scenario::words::{Parsed, Words};
 
@@ -39,6 +40,18 @@ impl Bound {
             Self::AtMost(count)
         })
     }
+}
+
+/// Of a puppet's joint, or of the control that is being calibrated.
+fn calibration(words: &mut Words<'_>) -> Parsed<Check> {
+    if words.take("says") {
+        return Ok(Check::Said(Said::Words(words.quoted("words of it")?)));
+    }
+    if words.take("is") {
+        let under_way = words.one_of(&["under-way", "over"])? == 0;
+        return Ok(Check::Said(Said::UnderWay(under_way)));
+    }
+    Calibrated::parse(words).map(Check::Calibrated)
 }
 
 impl Check {
@@ -135,7 +148,13 @@ impl Check {
                     bound: Bound::parse(words)?,
                 })
             }
-            "calibration" => Calibrated::parse(words).map(Self::Calibrated),
+            "calibration" => calibration(words),
+            "control" => {
+                let (number, device) = controls::control(words)?;
+                words.expect("is")?;
+                let near = Near::parse(words)?;
+                Ok(Self::Control { device, number, near })
+            }
             "torque" => torque(words),
             "shaft" | "register" | "life" => truth(subject, words),
             "servos" => conduct(words).map(|conduct| Self::Servos { joint: None, conduct }),
