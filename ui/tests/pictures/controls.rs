@@ -5,7 +5,7 @@ use rig::{Command, ControlView, DeviceHealth, DeviceView, LearnCommand, Learning
 use ui::panels::Board;
 use ui::render::picture::Picture;
 
-use crate::studio::{Bench, harness, keep, no_card};
+use crate::studio::{Bench, at_scale, harness, keep, no_card};
 use crate::walker;
 
 pub(crate) fn controls(kind: &'static str, count: u8, first: u8) -> impl Iterator<Item = ControlView> {
@@ -321,8 +321,10 @@ fn ten_devices_fit_on_a_small_and_on_a_fine_screen() {
             };
             seen.devices.push(slot);
         }
-        let mut harness = board(seen, Some("nanokontrol2"), [1280.0, 800.0], true);
-        harness.set_pixels_per_point(scale);
+        let mut harness = at_scale(seen, [1280.0, 800.0], true, scale);
+        let choices = harness.state_mut().studio.choices();
+        choices.board = Board::Controls;
+        choices.device = Some("nanokontrol2".to_owned());
         harness.run_steps(3);
         let image = harness.render().expect("the adapter that started also draws");
         let picture = Picture {

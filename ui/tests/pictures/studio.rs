@@ -23,8 +23,14 @@ pub(crate) struct Bench {
 
 /// A window of `size`; with `card`, one that can also be drawn.
 pub(crate) fn harness(seen: Snapshot, size: [f32; 2], card: bool) -> Harness<'static, Bench> {
+    at_scale(seen, size, card, 1.0)
+}
+
+/// The same on a screen with so many pixels to a point.
+pub(crate) fn at_scale(seen: Snapshot, size: [f32; 2], card: bool, scale: f32) -> Harness<'static, Bench> {
     let mut builder = Harness::builder()
         .with_size(size)
+        .with_pixels_per_point(scale)
         // A screen's own pace: two clicks of a hand come within a few pictures.
         .with_step_dt(1.0 / 60.0)
         .with_context_setup(style::apply);

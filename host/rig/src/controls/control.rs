@@ -57,7 +57,7 @@ pub(crate) struct Control {
     /// It is being calibrated and drives nothing.
     pub(crate) muted: bool,
     /// Share of the range below which a change is noise.
-    noise: f64,
+    pub(crate) noise: f64,
     /// Share of the deflection that is the middle.
     pub(crate) zone: f64,
     zone_built: f64,

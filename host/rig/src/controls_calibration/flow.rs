@@ -294,7 +294,7 @@ impl Calibrating {
                 control, sweeping, ..
             } => {
                 let ends = sweeping.ends(control.range)?;
-                let axis = propose::ends(ends, control.axis(&self.subject.holds));
+                let axis = propose::ends(ends, control.noise_counts, control.axis(&self.subject.holds));
                 proposed.axes.insert(control.of_class, axis);
             }
             Phase::Rest {

@@ -17,6 +17,7 @@ fn subject(kind: Option<(ControlKind, u16)>) -> Subject {
         } else {
             [0, 1023]
         },
+        noise_counts: 0,
         counts_per_turn: 256.0,
         at: None,
     });
@@ -115,7 +116,7 @@ fn a_step_that_went_wrong_says_so_and_is_done_again() {
     assert_eq!((seen, at), (Some([12, 1010]), Some(12)));
     calibrating.next();
     assert_eq!(calibrating.view().fault, None);
-    assert_eq!(taken(&calibrating).axes[&0].ends, [1010, 12]);
+    assert_eq!(taken(&calibrating).axes[&0].ends, [1006, 16], "a little inside");
 }
 
 #[test]
@@ -159,12 +160,31 @@ fn a_device_that_goes_begins_its_step_again_and_keeps_a_result() {
     calibrating.next();
     assert_eq!(
         taken(&calibrating).axes[&0].ends,
-        [900, 100],
+        [896, 104],
         "the 0 of before is gone"
     );
     calibrating.away(true);
-    assert_eq!(taken(&calibrating).axes[&0].ends, [900, 100]);
+    assert_eq!(taken(&calibrating).axes[&0].ends, [896, 104]);
     assert!(calibrating.fault().is_some_and(|it| it.contains("all the same")));
+}
+
+#[test]
+fn what_a_device_does_not_tell_for_noise_does_not_keep_it_from_its_ends() {
+    let command = CalibrateControl::Ends {
+        device: device(),
+        control: 1,
+    };
+    let mut noisy = subject(Some((ControlKind::Fader, 0)));
+    noisy.control.as_mut().expect("a fader").noise_counts = 16;
+    let mut calibrating = Calibrating::begin(&command, noisy).expect("the device has it");
+    for value in [204, 500, 816] {
+        calibrating.hear(&axis(0, value));
+    }
+    calibrating.next();
+    let calibration = taken(&calibrating).axes[&0];
+    assert_eq!(calibration.ends, [220, 800]);
+    // It stops up to its noise short of where it did before.
+    assert_eq!((calibration.share(220), calibration.share(800)), (0.0, 1.0));
 }
 
 #[test]

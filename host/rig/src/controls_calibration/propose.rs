@@ -62,8 +62,14 @@ pub(super) fn rest(resting: &Resting, holds: AxisCalibration) -> Result<AxisCali
     })
 }
 
-/// New ends, and the rest of before where it lies between them.
-pub(super) fn ends(ends: [i32; 2], holds: AxisCalibration) -> AxisCalibration {
+/// New ends, and the rest of before where it lies between them. The ends are a little inside of what was seen, by what
+/// the device does not tell for noise, so that they are reached the next time too.
+pub(super) fn ends([from, to]: [i32; 2], noise_counts: i32, holds: AxisCalibration) -> AxisCalibration {
+    /// The travel in so many parts: one of them at least, where counts are as fine as that.
+    const PARTS: i32 = 200;
+    let travel = to.saturating_sub(from);
+    let inside = (travel.saturating_abs() / PARTS).max(noise_counts) * travel.signum();
+    let ends = [from.saturating_add(inside), to.saturating_sub(inside)];
     let rest = holds.rest.filter(|&rest| is_between(rest, ends));
     AxisCalibration {
         ends,

@@ -34,6 +34,8 @@ pub struct Control {
     pub of_class: u16,
     /// Counts at its ends.
     pub range: [i32; 2],
+    /// Changes below this are noise, which it does not tell.
+    pub noise_counts: i32,
     /// Counts in a turn.
     pub counts_per_turn: f64,
     /// Where it said it is; none before it said.

@@ -335,12 +335,14 @@ fn control_of(instance: &Instance, number: u8) -> Result<Control, String> {
             _ => format!("{} has no controls beside its surface", instance.device),
         }
     })?;
+    let span = (f64::from(control.range[1]) - f64::from(control.range[0])).abs();
     Ok(Control {
         number,
         name: control.name.clone(),
         kind: control.kind,
         of_class: control.of_class,
         range: control.range,
+        noise_counts: (control.noise * span).ceil() as i32,
         counts_per_turn: control.counts_per_turn_built,
         at: control.counts,
     })

@@ -78,18 +78,18 @@ fn a_fader_is_measured_drives_nothing_meanwhile_and_has_to_be_picked_up_after() 
     bench.step(&[ask(CalibrateControl::Next)]);
     bench.step(&[]);
     let view = calibration(&bench);
-    assert_eq!(view.result.as_deref(), Some("from 200 to 800 counts"));
+    assert_eq!(view.result.as_deref(), Some("from 203 to 797 counts"));
     let Measured::Travel { proposed, .. } = view.measured else {
         panic!("a fader has travel");
     };
-    assert_eq!(proposed.map(|it| it.ends), Some([200, 800]));
+    assert_eq!(proposed.map(|it| it.ends), Some([203, 797]));
     bench.step(&[ask(CalibrateControl::Take)]);
     bench.step(&[]);
     assert!(bench.seen.calibration.is_none() && bench.view().controls[0].calibrated);
     assert!(
         bench
             .notes()
-            .contains("fader 1 of nano: from 200 to 800 counts (before: from 0 to 1000")
+            .contains("fader 1 of nano: from 203 to 797 counts (before: from 0 to 1000")
     );
     // It stands at its upper end; the view at the middle.
     bench.slowly(0, &[800, 790]);
@@ -97,7 +97,10 @@ fn a_fader_is_measured_drives_nothing_meanwhile_and_has_to_be_picked_up_after() 
     bench.slowly(0, &[500]);
     assert!((bench.azimuth_deg() - 45.0).abs() < 1e-9, "there it takes hold");
     bench.slowly(0, &[650]);
-    assert!((bench.azimuth_deg() - 67.5).abs() < 1e-9);
+    let want_deg = 90.0 * f64::from(650 - 203) / f64::from(797 - 203);
+    assert!((bench.azimuth_deg() - want_deg).abs() < 1e-9);
+    bench.slowly(0, &[800]);
+    assert!((bench.azimuth_deg() - 90.0).abs() < 1e-9);
 }
 
 #[test]
@@ -207,7 +210,7 @@ fn what_goes_wrong_is_told_and_nothing_is_lost() {
         .noticed(&Change::Gone(nano(), "the cable is out".into()));
     bench.step(&[ask(CalibrateControl::Take)]);
     let kept = bench.rig.calibrated().get("nano").cloned().unwrap_or_default();
-    assert_eq!(kept.axes.get(&0).map(|it| it.ends), Some([900, 100]));
+    assert_eq!(kept.axes.get(&0).map(|it| it.ends), Some([896, 104]));
     refused(&mut bench, ends(1), "does not answer");
 }
 
@@ -247,7 +250,8 @@ fn what_was_taken_is_kept_and_holds_after_a_restart_and_a_return() {
         .noticed(&Change::Gone(nano(), "the cable is out".into()));
     bench.rig.noticed(&Change::Came(nano()));
     bench.slowly(0, &[480, 500, 700]);
-    assert!((bench.azimuth_deg() - 67.5).abs() < 1e-9, "after a return");
+    let want_deg = 90.0 * f64::from(700 - 104) / f64::from(896 - 104);
+    assert!((bench.azimuth_deg() - want_deg).abs() < 1e-9, "after a return");
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::render::theme;
 const CELL_WIDTH: f32 = 208.0;
 /// And is so high.
 const CELL_HEIGHT: f32 = 74.0;
-/// Height of a tablet's pictures with what can be done to them, points.
+/// Least height of a tablet's pictures with what can be done to them, points.
 const TABLET: f32 = 300.0;
 /// Width of a button, points.
 const WIDTH: f32 = 62.0;
@@ -36,8 +36,11 @@ pub(super) fn show(ui: &mut Ui, area: Rect, device: &DeviceView, commands: &mut 
 
 fn tablet(ui: &mut Ui, device: &DeviceView, commands: &mut Commands<'_>) {
     let Some(size) = device.sheet else { return };
-    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), TABLET + theme::MARGIN));
-    let rect = Rect::from_min_size(rect.min, vec2(rect.width(), TABLET));
+    let beside = device.controls.iter().any(|it| !it.comes_to.is_empty());
+    let rest = ui.available_height() - theme::ROW - 2.0 * theme::MARGIN;
+    let height = if beside { TABLET } else { rest.max(TABLET) };
+    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), height + theme::MARGIN));
+    let rect = Rect::from_min_size(rect.min, vec2(rect.width(), height));
     let (held, pressure) = mapping_of(device);
     let [left, right] = halves(rect);
     let [left, below] = mapping::split(left);

@@ -70,6 +70,17 @@ impl Sheet {
 /// Paints it.
 pub(super) fn paint(painter: &Painter, area: Rect, sheet: &Sheet) {
     let rest = style::title(painter, area, "area");
+    let [width, height] = sheet.size_mm;
+    let said = format!("{width:.1} \u{d7} {height:.1} mm");
+    let text = (said.as_str(), style::digits(theme::SIZE_SMALL));
+    style::line(
+        painter,
+        area.right_top(),
+        Align2::RIGHT_TOP,
+        text,
+        theme::DIM,
+        area.width() / 2.0,
+    );
     let place = Place::of(rest.shrink2(vec2(0.0, theme::STEP)), sheet.size_mm);
     painter.rect(
         place.rect,
@@ -80,15 +91,15 @@ pub(super) fn paint(painter: &Painter, area: Rect, sheet: &Sheet) {
     );
     grid(painter, &place);
     let (colour, fill) = if sheet.bright {
-        (theme::TEXT, 0.9)
+        (theme::TEXT, 0.08)
     } else {
-        (theme::DIM, 0.94)
+        (theme::DIM, 0.05)
     };
     let quiet = sheet.proposed.is_some() || !sheet.touched_mm.is_empty();
     let colour = if quiet { theme::FAINT } else { colour };
     outline(painter, &place, &sheet.holds, (colour, fill));
     if let Some(proposed) = &sheet.proposed {
-        outline(painter, &place, proposed, (theme::SELECTED, 0.82));
+        outline(painter, &place, proposed, (theme::SELECTED, 0.16));
     }
     spanned(painter, &place, sheet);
     for (index, &corner) in sheet.touched_mm.iter().enumerate() {
@@ -97,18 +108,6 @@ pub(super) fn paint(painter: &Painter, area: Rect, sheet: &Sheet) {
     if let Some(at) = sheet.at_mm {
         tool(painter, &place, at);
     }
-    let [width, height] = sheet.size_mm;
-    let said = format!("{width:.1} \u{d7} {height:.1} mm");
-    let text = (said.as_str(), style::digits(theme::SIZE_SMALL));
-    let at = place.rect.right_bottom() + vec2(-theme::STEP, -theme::STEP);
-    style::line(
-        painter,
-        at,
-        Align2::RIGHT_BOTTOM,
-        text,
-        theme::FAINT,
-        place.rect.width(),
-    );
 }
 
 /// Where millimetres are on the screen.
@@ -154,7 +153,7 @@ fn grid(painter: &Painter, place: &Place) {
 /// What is drawn on, as it lies; where up is has an arrow.
 fn outline(painter: &Painter, place: &Place, mapping: &TabletMapping, (colour, fill): (Rgb, f32)) {
     let size = Size {
-        // A millimetre a count: the sheet is known in millimetres here.
+        // A hundredth of a millimetre a count: here the sheet is known in millimetres.
         max_counts: place.size_mm.map(|side| (side * 100.0).round() as u32),
         counts_per_inch: [2540.0; 2],
     };
@@ -162,7 +161,7 @@ fn outline(painter: &Painter, place: &Place, mapping: &TabletMapping, (colour, f
     let line = Stroke::new(1.5, ink(colour));
     painter.add(Shape::convex_polygon(
         corners.to_vec(),
-        ink(colour.mix(theme::GROUND, fill)),
+        ink(colour).gamma_multiply(fill),
         line,
     ));
     let [left, right, ..] = corners;

@@ -7,7 +7,9 @@ use super::super::super::style::{self, ink};
 use crate::render::theme::{self, Rgb};
 
 /// Height of the track, points.
-const TRACK: f32 = 28.0;
+const TRACK: f32 = 40.0;
+/// The number of where it is, so far above the track, points.
+const READOUT: f32 = 68.0;
 /// Width of the cap, points.
 const CAP: f32 = 12.0;
 
@@ -48,17 +50,17 @@ pub(super) fn paint(painter: &Painter, area: Rect, measured: &Measured) {
     if let Some(proposed) = proposed {
         ends(painter, &counts, *proposed, ("measured", theme::SELECTED, true));
     }
-    for rest in rests {
-        painter.circle_filled(pos2(counts.x(*rest), track.center().y), 4.0, ink(theme::SELECTED));
-    }
     if let Some(at) = at {
         let cap = Rect::from_center_size(pos2(counts.x(*at), track.center().y), vec2(CAP, TRACK + 14.0));
         painter.rect_filled(cap, style::round(), ink(theme::LIVE));
         let said = at.to_string();
         let text = (said.as_str(), style::digits(theme::SIZE_READOUT));
-        let above = pos2(cap.center().x, rest.top() + theme::SIZE_READOUT);
+        let above = pos2(cap.center().x, track.top() - READOUT);
         let above = pos2(above.x.clamp(area.left() + 40.0, area.right() - 40.0), above.y);
         style::line(painter, above, Align2::CENTER_CENTER, text, theme::LIVE, 120.0);
+    }
+    for rest in rests {
+        painter.circle_filled(pos2(counts.x(*rest), track.center().y), 4.0, ink(theme::SELECTED));
     }
 }
 
@@ -105,10 +107,10 @@ fn ends(painter: &Painter, counts: &Counts, axis: AxisCalibration, (name, colour
     };
     let line = Stroke::new(2.0, ink(colour));
     let beyond = if above { -9.0 } else { 9.0 };
-    for (end, what) in axis.ends.into_iter().zip(["0", "1"]) {
+    for end in axis.ends {
         let x = counts.x(end);
         painter.line_segment([pos2(x, inner), pos2(x, outer)], line);
-        let said = format!("{end}");
+        let said = end.to_string();
         let text = (said.as_str(), style::digits(theme::SIZE_BODY));
         style::line(
             painter,
@@ -117,16 +119,6 @@ fn ends(painter: &Painter, counts: &Counts, axis: AxisCalibration, (name, colour
             text,
             colour,
             90.0,
-        );
-        let inside = if x < counts.track.center().x { 8.0 } else { -8.0 };
-        let text = (what, style::digits(theme::SIZE_SMALL));
-        style::line(
-            painter,
-            pos2(x + inside, outer),
-            Align2::CENTER_CENTER,
-            text,
-            theme::FAINT,
-            12.0,
         );
     }
     let middle = pos2(counts.track.center().x, outer);
