@@ -1,4 +1,5 @@
-//! Calibrating controls in the studio: pictures to be looked at, and what hands on them want.
+//! Calibrating controls in the studio: pictures to be looked at, and what hands on them want. Those in `docs/pictures`
+//! named `calibrate-…` are from here.
 
 use egui_kittest::kittest::Queryable;
 use rig::controls_calibration::{

@@ -53,6 +53,7 @@ impl<'a> Bench<'a> {
             folder: None,
             profiles,
             inputs: Vec::new(),
+            calibrations: rig::controls_calibration::Store::in_memory(),
             puppet: None,
             recorder: None,
         };
