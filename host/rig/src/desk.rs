@@ -96,6 +96,11 @@ impl Desk {
             .mute(on, &mut |output, value| tabletin(emit, output, value));
     }
 
+    /// The tablet is gone.
+    pub(crate) fn gone(&mut self) {
+        self.tablet.gone();
+    }
+
     /// The desk as it looks now: labels and lamps are the network's.
     pub(crate) fn view(&self, panel: &Panel, now_secs: f64, simulated_device: Option<String>) -> DeskView {
         let mut view = self.view.clone();

@@ -98,7 +98,7 @@ fn corners(proposed: Option<TabletMapping>) -> CalibrationView {
         "touch the opposite corner"
     };
     CalibrationView {
-        seen: "1 of 2 corners".into(),
+        seen: format!("{} of 2 corners", 1 + u8::from(done)),
         replaces: "all of it, 129.6 \u{d7} 94.3 mm".into(),
         result: done.then(|| "82.0 \u{d7} 58.0 mm, 22.0 mm from the left and 16.0 mm from the top".into()),
         ..view("area", if done { [3, 3] } else { [2, 3] }, words, measured)

@@ -287,6 +287,9 @@ impl Instance {
     /// The device is gone: what springs back is let go, everything else stays where it is.
     pub(crate) fn lost(&mut self, emit: &mut tablet::Emit<'_>) {
         self.present = false;
+        if let Some(tablet) = &mut self.tablet {
+            tablet.gone();
+        }
         for control in &mut self.controls {
             if let Some(value) = control.lost() {
                 emit(control.number, value);

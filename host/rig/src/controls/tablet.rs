@@ -95,6 +95,14 @@ impl Tablet {
         };
     }
 
+    /// The device is gone, and with it whatever was near: what comes when it is back has come anew.
+    pub(crate) fn gone(&mut self) {
+        self.near = false;
+        if self.quiet == Quiet::UntilAway {
+            self.quiet = Quiet::No;
+        }
+    }
+
     /// Tools and fingers count as lifted.
     pub(crate) fn leave(&mut self, emit: &mut Emit<'_>) {
         if self.in_range {

@@ -106,6 +106,16 @@ fn a_mapping_exchanged_under_a_tool_counts_from_when_it_was_lifted() {
 }
 
 #[test]
+fn a_tablet_that_was_unplugged_under_a_tool_does_not_wait_for_it() {
+    let mut tablet = Tablet::default();
+    heard(&mut tablet, sample(5000, 2500, 0));
+    calibrated(&mut tablet, Some(&middle()));
+    assert!(heard(&mut tablet, sample(5000, 2500, 0)).is_empty());
+    tablet.gone();
+    assert_eq!(heard(&mut tablet, sample(5000, 2500, 0))[0], "5 Boolean(true)");
+}
+
+#[test]
 fn while_it_is_calibrated_nothing_passes_and_after_it_the_tool_is_lifted_first() {
     let mut tablet = Tablet::default();
     heard(&mut tablet, sample(5000, 2500, 0));

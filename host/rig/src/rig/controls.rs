@@ -168,6 +168,9 @@ impl Rig {
         match change {
             Change::Came(_) => instance.present = true,
             Change::Gone(..) => {
+                if instance.is_desk && instance.tablet.is_some() {
+                    self.desk.gone();
+                }
                 let (from, wiring) = (instance.source(), &mut self.wiring);
                 instance.lost(&mut |output, value| {
                     if let Some(from) = from {
