@@ -30,6 +30,7 @@ impl Ports for Socket {
             profile: None,
             slot: 1,
             baud: 0,
+            identity: String::new(),
         };
         let found = Found {
             address: "/dev/hidraw0".to_owned(),
@@ -77,6 +78,7 @@ impl Desk {
             folder: None,
             profiles: Arc::new(Profiles::builtin()),
             inputs: Vec::new(),
+            calibrations: rig::controls_calibration::Store::in_memory(),
             puppet: None,
             recorder: None,
         };
