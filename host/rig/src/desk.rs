@@ -70,7 +70,7 @@ impl Desk {
             InputEvent::Pen(sample) => {
                 let Some(surface) = source.surface else { return };
                 self.tablet.hear(sample, surface, &mut |output, value| {
-                    tabletin(emit, output, value)
+                    tabletin(emit, output, value);
                 });
             }
             // Of the rest the original's devices have nothing.
@@ -86,14 +86,16 @@ impl Desk {
 
     /// The tablet takes another mapping.
     pub(crate) fn calibrate(&mut self, mapping: Option<&TabletMapping>, emit: &mut Emit<'_>) {
-        self.tablet
-            .calibrate(mapping, &mut |output, value| tabletin(emit, output, value));
+        self.tablet.calibrate(mapping, &mut |output, value| {
+            tabletin(emit, output, value);
+        });
     }
 
     /// The tablet begins or ends being calibrated.
     pub(crate) fn mute(&mut self, on: bool, emit: &mut Emit<'_>) {
-        self.tablet
-            .mute(on, &mut |output, value| tabletin(emit, output, value));
+        self.tablet.mute(on, &mut |output, value| {
+            tabletin(emit, output, value);
+        });
     }
 
     /// The tablet is gone.

@@ -188,15 +188,13 @@ impl Identities {
     pub(crate) fn identity(&self, unit: &Unit) -> Option<String> {
         let at = self.row_of(unit, false).or_else(|| self.row_of(unit, true))?;
         let row = &self.rows[at];
-        Some(match &row.serial {
-            Some(serial) => format!("{} {serial}", row.profile),
-            None => {
-                // Rows are never taken out, so the count of those before one stays.
-                let before = self.rows[..at].iter();
-                let nth = before.filter(|other| other.profile == row.profile).count() + 1;
-                format!("{} no. {nth}", row.profile)
-            }
-        })
+        if let Some(serial) = &row.serial {
+            return Some(format!("{} {serial}", row.profile));
+        }
+        // Rows are never taken out, so the count of those before one stays.
+        let before = self.rows[..at].iter();
+        let nth = before.filter(|other| other.profile == row.profile).count() + 1;
+        Some(format!("{} no. {nth}", row.profile))
     }
 
     /// Gives a unit a place for good; whoever had it takes this one's. None: it may be found by itself again.

@@ -218,37 +218,18 @@ fn every_calibration_has_a_picture() {
         ..TabletMapping::default()
     };
     let short = "the control went only from 500 to 560; take it to one end and then to the other";
-    for (name, calibrated) in [
-        (
-            "corner",
-            (Some("tablet"), with(tablet(None), Some(corners(None)))),
-        ),
-        (
-            "area",
-            (Some("tablet"), with(tablet(None), Some(corners(Some(cut))))),
-        ),
-        (
-            "pressure",
-            (Some("tablet"), with(tablet(Some(mapping())), Some(pressure()))),
-        ),
-        (
-            "fader",
-            (Some("nanokontrol2"), with(tablet(None), Some(fader(None)))),
-        ),
-        (
-            "fader-short",
-            (Some("nanokontrol2"), with(tablet(None), Some(fader(Some(short))))),
-        ),
-        ("dial", (Some("dial-box"), with(tablet(None), Some(dial())))),
-        ("stick", (Some("spacemouse"), with(tablet(None), Some(stick())))),
+    for (name, chosen, held, view) in [
+        ("corner", "tablet", None, corners(None)),
+        ("area", "tablet", None, corners(Some(cut))),
+        ("pressure", "tablet", Some(mapping()), pressure()),
+        ("fader", "nanokontrol2", None, fader(None)),
+        ("fader-short", "nanokontrol2", None, fader(Some(short))),
+        ("dial", "dial-box", None, dial()),
+        ("stick", "spacemouse", None, stick()),
     ] {
         for size in [SIZE, [1920.0, 1080.0]] {
-            let picture = drawn(
-                calibrated.1.clone(),
-                calibrated.0,
-                size,
-                &format!("calibrate-{name}"),
-            );
+            let seen = with(tablet(held.clone()), Some(view.clone()));
+            let picture = drawn(seen, Some(chosen), size, &format!("calibrate-{name}"));
             assert!(
                 count(&picture, theme::SELECTED) > 200,
                 "{name} tells nothing of what comes next"

@@ -37,6 +37,7 @@ pub(crate) struct At {
 
 /// One control.
 #[derive(Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(crate) struct Control {
     /// Of its output.
     pub(crate) number: u8,

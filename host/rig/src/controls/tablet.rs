@@ -40,6 +40,7 @@ pub(crate) type Emit<'a> = dyn FnMut(u8, Value) + 'a;
 
 /// What is remembered of a surface from sample to sample.
 #[derive(Clone, Debug, Default)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(crate) struct Tablet {
     in_range: bool,
     code: i32,

@@ -17,7 +17,7 @@ fn sample(x_counts: u32, y_counts: u32, pressure_counts: u32) -> PenSample {
 fn heard(tablet: &mut Tablet, sample: PenSample) -> Vec<String> {
     let mut said = Vec::new();
     tablet.hear(&sample, SURFACE, &mut |output, value| {
-        said.push(format!("{output} {value:?}"))
+        said.push(format!("{output} {value:?}"));
     });
     said
 }
@@ -25,7 +25,7 @@ fn heard(tablet: &mut Tablet, sample: PenSample) -> Vec<String> {
 fn calibrated(tablet: &mut Tablet, mapping: Option<&TabletMapping>) -> Vec<String> {
     let mut said = Vec::new();
     tablet.calibrate(mapping, &mut |output, value| {
-        said.push(format!("{output} {value:?}"))
+        said.push(format!("{output} {value:?}"));
     });
     said
 }
@@ -121,7 +121,7 @@ fn while_it_is_calibrated_nothing_passes_and_after_it_the_tool_is_lifted_first()
     heard(&mut tablet, sample(5000, 2500, 0));
     let mut said = Vec::new();
     tablet.mute(true, &mut |output, value| {
-        said.push(format!("{output} {value:?}"))
+        said.push(format!("{output} {value:?}"));
     });
     assert_eq!(said, ["5 Boolean(false)"]);
     for pressure in [0, 900, 0] {

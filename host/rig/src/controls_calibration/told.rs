@@ -3,7 +3,7 @@
 use super::flow::{Calibrating, Phase, RESTS};
 use super::subject::Control;
 use super::view::{CalibrationView, Measured};
-use super::{AxisCalibration, ControlsCalibration, PressureCurve, TabletMapping};
+use super::{Area, AxisCalibration, ControlsCalibration, PressureCurve, Sheet, TabletMapping};
 
 /// What the three steps of a pen's pressure ask for.
 const PRESSING: [&str; 3] = [
@@ -117,17 +117,10 @@ impl Calibrating {
                 let known = of.axes.contains_key(&control.of_class);
                 format!("{}{}", axis_words(control, of), built(known))
             }
-            Phase::Corners { sheet, .. } => match of.tablet.as_ref().and_then(|tablet| tablet.area) {
-                Some(area) => {
-                    let [width, height] = area.size_mm;
-                    let [x, y] = area.corner_mm;
-                    format!("{width:.1} × {height:.1} mm, {x:.1} mm from the left and {y:.1} mm from the top")
-                }
-                None => {
-                    let [width, height] = sheet.size_mm();
-                    format!("all of it, {width:.1} × {height:.1} mm")
-                }
-            },
+            Phase::Corners { sheet, .. } => {
+                let area = of.tablet.as_ref().and_then(|tablet| tablet.area);
+                area.map_or_else(|| whole_words(sheet), area_words)
+            }
             Phase::Pressure { .. } => {
                 let curve = pressure(of);
                 let known = curve != PressureCurve::default();
@@ -191,6 +184,17 @@ impl Calibrating {
             }
         }
     }
+}
+
+fn whole_words(sheet: &Sheet) -> String {
+    let [width, height] = sheet.size_mm();
+    format!("all of it, {width:.1} × {height:.1} mm")
+}
+
+fn area_words(area: Area) -> String {
+    let [width, height] = area.size_mm;
+    let [x, y] = area.corner_mm;
+    format!("{width:.1} × {height:.1} mm, {x:.1} mm from the left and {y:.1} mm from the top")
 }
 
 fn axis_words(control: &Control, of: &ControlsCalibration) -> String {

@@ -194,14 +194,21 @@ impl Rig {
             autosaved_at_secs: 0.0,
             steps: 0,
         };
-        let told = remarks.into_iter().map(|remark| (NoteLevel::Warning, remark));
-        for (level, remark) in told.chain(rig.calibrations.fault().map(|fault| (NoteLevel::Error, fault))) {
-            rig.note(level, remark);
-        }
+        rig.tell_beginning(remarks);
         rig.set_stage();
         rig.set_clip();
         rig.reset_view();
         Ok(rig)
+    }
+
+    /// What is wrong before anything has happened.
+    fn tell_beginning(&mut self, remarks: Vec<String>) {
+        for remark in remarks {
+            self.note(NoteLevel::Warning, remark);
+        }
+        if let Some(fault) = self.calibrations.fault() {
+            self.note(NoteLevel::Error, fault);
+        }
     }
 
     /// One step. Commands are done in the order given.

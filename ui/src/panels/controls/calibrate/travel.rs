@@ -122,30 +122,25 @@ fn ends(painter: &Painter, counts: &Counts, axis: AxisCalibration, (name, colour
         );
     }
     let middle = pos2(counts.track.center().x, outer);
-    match axis.rest {
-        Some(rest) => {
-            let dead = counts.x(rest - axis.dead_counts)..=counts.x(rest + axis.dead_counts);
-            painter.rect_filled(
-                Rect::from_x_y_ranges(dead, counts.track.y_range()),
-                0.0,
-                ink(colour.mix(theme::GROUND, 0.7)),
-            );
-            let x = counts.x(rest);
-            painter.line_segment([pos2(x, inner), pos2(x, outer)], line);
-            let said = format!("{rest} \u{b1} {}", axis.dead_counts);
-            let text = (said.as_str(), style::digits(theme::SIZE_BODY));
-            style::line(
-                painter,
-                pos2(x, outer + beyond),
-                Align2::CENTER_CENTER,
-                text,
-                colour,
-                120.0,
-            );
-        }
-        None => {
-            let text = (name, style::words(theme::SIZE_SMALL));
-            style::line(painter, middle, Align2::CENTER_CENTER, text, colour, 120.0);
-        }
-    }
+    let Some(rest) = axis.rest else {
+        let text = (name, style::words(theme::SIZE_SMALL));
+        style::line(painter, middle, Align2::CENTER_CENTER, text, colour, 120.0);
+        return;
+    };
+    let dead = [
+        rest.saturating_sub(axis.dead_counts),
+        rest.saturating_add(axis.dead_counts),
+    ];
+    let [low, high] = dead.map(|counts_at| counts.x(counts_at));
+    painter.rect_filled(
+        Rect::from_x_y_ranges(low..=high, counts.track.y_range()),
+        0.0,
+        ink(colour.mix(theme::GROUND, 0.7)),
+    );
+    let x = counts.x(rest);
+    painter.line_segment([pos2(x, inner), pos2(x, outer)], line);
+    let said = format!("{rest} \u{b1} {}", axis.dead_counts);
+    let text = (said.as_str(), style::digits(theme::SIZE_BODY));
+    let at = pos2(x, outer + beyond);
+    style::line(painter, at, Align2::CENTER_CENTER, text, colour, 120.0);
 }
