@@ -11,8 +11,7 @@ use crate::live::Simulated;
 use crate::{ANY, call, check, dialrig, fed, interrupt, root};
 
 /// An exchange of a box that is asked and turned.
-const GOOD: &[u8] =
-    b"profile: sgi-dialbox\nhost   > 20\ndevice < 20 @ 0.012\nevent  started\nhost   > 50 00 ff\n\
+const GOOD: &[u8] = b"profile: sgi-dialbox\ndevice < 20 @ 0.012\nevent  started\n\
     device < 33 00 40 @ 0.250\nevent  dial 3 +64\n";
 const WRONG_EVENT: &[u8] =
     b"profile: sgi-dialbox\ndevice < 20 @ 0.012\nevent  started\ndevice < 33 00 40 @ 0.250\n\
