@@ -18,13 +18,13 @@ const PRESS_SECS: f64 = 0.08;
 /// Words that begin a doing.
 pub(super) const VERBS: &[&str] = &[
     "turn",
-    "slide",
     "press",
     "hold",
     "release",
     "puck",
     "pen",
     "cursor",
+    "slide",
     "plug",
     "unplug",
     "power-cycle",
