@@ -174,19 +174,20 @@ fn the_nanokontrol2_says_who_it_is_and_lights_by_its_own_controllers() {
     let sent = bench.pass(10);
     assert!(bench.codec.started());
     assert_eq!(bench.codec.identity(), Some("42 13 01 00 00 03 00 01 00"));
-    assert_eq!(sent.len(), 3 * 35, "all lamps dark");
+    // Solo, mute and record of eight strips, cycle, and five of transport; track and marker have none.
+    assert_eq!(sent.len(), 3 * 30, "all lamps dark");
     bench.events.clear();
     assert_eq!(
         bench.hear(&[0xB0, 0, 12, 23, 99, 41, 127, 41, 0, 62, 127]),
         [
             axis(0, 12),
             axis(15, 99),
-            button(24, true),
-            button(24, false),
-            button(34, true)
+            button(33, true),
+            button(33, false),
+            button(29, true)
         ]
     );
-    assert_eq!(bench.show(&Feedback::Lamps(1 << 34)), [0xB0, 62, 127]);
+    assert_eq!(bench.show(&Feedback::Lamps(1 << 34)), [0xB0, 45, 127]);
 
     // One that does not answer works all the same, a little later.
     let (bench, _) = Bench::woken(&builtin("nanokontrol2"));
@@ -207,7 +208,7 @@ fn the_launch_control_xl_takes_its_colours_by_system_exclusive() {
             axis(15, 2),
             axis(23, 3),
             axis(31, 4),
-            button(19, true),
+            button(23, true),
             button(7, true),
             button(7, false)
         ]
@@ -223,7 +224,8 @@ fn the_launch_control_xl_takes_its_colours_by_system_exclusive() {
         (8, 255, Some([0, 255, 0]), 8, 0x3C),
         (23, 255, None, 23, 0x3F),
         (39, 1, Some([255, 255, 0]), 39, 0x1D),
-        (40, 255, Some([255, 255, 255]), 44, 0x0F),
+        (40, 255, Some([255, 0, 0]), 40, 0x0F),
+        (44, 255, Some([255, 255, 255]), 44, 0x0F),
     ];
     for (control, level, colour, index, value) in table {
         let wanted = [0xF0, 0x00, 0x20, 0x29, 0x02, 0x11, 0x78, 0x08, index, value, 0xF7];

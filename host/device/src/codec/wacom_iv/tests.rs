@@ -83,7 +83,11 @@ fn a_digitizer_is_asked_for_everything_and_set_up_with_tilt() {
     assert_eq!(host.hear(b"~RE202C900,002,02,1016,2540\r"), [bytes(set_up)]);
     assert_eq!(host.events, [InputEvent::Started]);
     assert_eq!(host.codec.identity(), Some("UD-0608-R00,V1.4-0"));
-    let want = Surface::flat([6144, 8448], [1016.0, 2540.0], 255);
+    // A step of tilt is a degree.
+    let want = Surface {
+        tilt_steps_per_rad: Some(57.0),
+        ..Surface::flat([6144, 8448], [1016.0, 2540.0], 255)
+    };
     assert_eq!(host.codec.surface(), Some(want));
     assert_eq!(
         host.codec.counters(),
