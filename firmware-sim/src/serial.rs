@@ -29,7 +29,7 @@ pub trait Inside: Send {
     fn touch(&mut self, wire: &mut Wire, touch: &Touch) -> bool;
 
     /// Power was lost and is back, and what was under way is gone: modes are as they come, hands stay where they are. A
-    /// device that needs a while says so with [`Wire::boot`].
+    /// device that needs a while says so with `Wire::boot`.
     fn lose_power(&mut self, wire: &mut Wire);
 
     /// The device has booted.

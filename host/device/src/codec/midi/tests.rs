@@ -187,7 +187,8 @@ fn the_nanokontrol2_says_who_it_is_and_lights_by_its_own_controllers() {
             button(29, true)
         ]
     );
-    assert_eq!(bench.show(&Feedback::Lamps(1 << 34)), [0xB0, 45, 127]);
+    // The last of thirty lamps, record.
+    assert_eq!(bench.show(&Feedback::Lamps(1 << 29)), [0xB0, 45, 127]);
 
     // One that does not answer works all the same, a little later.
     let (bench, _) = Bench::woken(&builtin("nanokontrol2"));
