@@ -71,6 +71,8 @@ pub(crate) fn known_profiles(profiles: &Profiles) -> String {
 pub(crate) struct Inputs {
     seats: Vec<Seat>,
     heard: Vec<Stamped<InputEvent>>,
+    /// The earliest time of what the next poll hears.
+    since: Instant,
     profiles: Arc<Profiles>,
     /// When what is plugged in is looked at again.
     list_at: Instant,
@@ -142,6 +144,7 @@ impl Inputs {
         Ok(Self {
             seats,
             heard: Vec::new(),
+            since: Instant::ZERO,
             profiles: Arc::clone(profiles),
             list_at: Instant::ZERO,
             list_again: plugging::LIST_AGAIN,
@@ -151,7 +154,8 @@ impl Inputs {
     }
 
     /// Polls every device in the order of their names. What they said is appended in the order of its times, equal
-    /// ones in the order of the names.
+    /// ones in the order of the names. What had arrived before the last poll, which did not hear it, counts as come right
+    /// after that one: whoever listens to it again by the times of the polls hears it in the same ones.
     pub(crate) fn poll(
         &mut self,
         now: Instant,
@@ -165,10 +169,20 @@ impl Inputs {
             it.poll(now, ports, &mut self.heard, noticed);
             it.events += self.heard.len() as u64;
             let source = it.source();
-            heard.extend(self.heard.drain(..).map(|event| Heard { seat, event, source }));
+            let since = self.since;
+            heard.extend(self.heard.drain(..).map(|mut event| {
+                event.at = event.at.max(since).min(now);
+                Heard { seat, event, source }
+            }));
         }
+        self.since = now.after(Duration::from_nanos(1));
         // Stable, so that what one device said stays in its order.
         heard.sort_by_key(|it| it.event.at);
+    }
+
+    /// The earliest time of what the next poll hears: just after the last one.
+    pub(crate) fn since(&self) -> Instant {
+        self.since
     }
 
     /// Devices that are away are looked for in every step: whoever has the lines knows when each was opened.

@@ -1,4 +1,4 @@
-//! A device that no profile knows, captured: its own description is kept with what it said.
+//! A device that no profile knows, captured and performed with: its own description is kept with what it said.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use device::transport::{Transport, TransportError};
 use device_profiles::Profiles;
 use rig::capture::replay;
 use rig::document::{NetworkFile, Show};
-use rig::{Command, Found, Plug, Ports, Rig, RigOptions};
+use rig::{Command, Found, NetworkEdit, NoteLevel, Plug, Ports, Rig, RigOptions, Snapshot, TakeCommand};
 
 /// A multi-axis controller with one axis of eight bits.
 const AXIS: [u8; 20] = [
@@ -57,6 +57,7 @@ struct Desk {
     clock: VirtualClock,
     socket: Socket,
     far: Option<ReportDevice>,
+    seen: Arc<Snapshot>,
 }
 
 impl Desk {
@@ -87,6 +88,7 @@ impl Desk {
             clock,
             socket,
             far: None,
+            seen: Arc::default(),
         };
         desk.plug();
         desk.wait(1.0);
@@ -102,7 +104,7 @@ impl Desk {
 
     fn step(&mut self, commands: &[Command]) {
         self.clock.advance(Duration::from_millis(10));
-        self.rig.step(&mut commands.iter().cloned());
+        self.seen = self.rig.step(&mut commands.iter().cloned());
     }
 
     fn wait(&mut self, secs: f64) {
@@ -119,6 +121,74 @@ impl Desk {
             self.step(&[]);
         }
     }
+
+    fn take(&mut self, command: TakeCommand) {
+        self.step(&[Command::Take(command)]);
+        for _ in 0..6000 {
+            match &self.seen.take {
+                Some(take) if !take.recording => self.step(&[]),
+                _ => return,
+            }
+        }
+        panic!("its keys do not come: {:?}", self.seen.notes);
+    }
+
+    fn keys(&self, clip: &str) -> Vec<u64> {
+        let show = Arc::clone(self.rig.show());
+        let keys = &show.joint_clips.get(clip).expect("there is a clip").keys;
+        let numbers = keys
+            .iter()
+            .flat_map(|key| [key.secs, key.angles_rad["elbow_flex"]].map(f64::to_bits));
+        numbers.collect()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let notes = self.seen.notes.iter();
+        let all = notes.filter(|note| note.level != NoteLevel::Info);
+        all.map(|note| note.text.clone()).collect()
+    }
+}
+
+/// Its reports bear the time of the step before the one that hears them.
+#[test]
+fn a_take_of_it_is_done_again_without_a_profile() {
+    let mut desk = Desk::new();
+    desk.push(128, 150);
+    // On another line than that on which it described itself.
+    desk.far = None;
+    desk.wait(0.3);
+    desk.plug();
+    desk.wait(1.5);
+    desk.push(128, 140);
+    desk.take(TakeCommand::Start {
+        name: "wave".into(),
+        devices: Vec::new(),
+        tolerance: None,
+    });
+    desk.push(140, 200);
+    desk.far = None;
+    desk.wait(0.5);
+    desk.plug();
+    desk.wait(1.5);
+    desk.push(60, 90);
+    desk.take(TakeCommand::Stop);
+    let told = desk.warnings();
+    assert!(
+        !told.iter().any(|it| it.contains("not quite what was seen")),
+        "{told:?}"
+    );
+    let first = desk.keys("wave");
+    assert!(first.len() > 6, "{first:?}");
+    let again = |clip: &str| TakeCommand::Rerun {
+        take: "wave".into(),
+        clip: Some(clip.into()),
+        tolerance: None,
+    };
+    desk.take(again("again"));
+    assert_eq!(desk.keys("again"), first);
+    desk.step(&[Command::Network(NetworkEdit::Commands("SEND 45 TO <2>s;".into()))]);
+    desk.take(again("other"));
+    assert_ne!(desk.keys("other"), first);
 }
 
 #[test]

@@ -78,10 +78,12 @@ impl Rig {
         self.refresh_controls();
         let mut heard = std::mem::take(&mut self.heard);
         let mut changes = Vec::new();
-        let mut ports = self
-            .takes
-            .tapes
-            .at(self.ports.as_mut(), &self.clock, self.began, self.now);
+        let mut ports = self.takes.tapes.at(
+            self.ports.as_mut(),
+            &self.clock,
+            self.began,
+            [self.inputs.since(), self.now],
+        );
         self.inputs.poll(self.now, &mut ports, &mut heard, &mut |change| {
             changes.push(change);
         });

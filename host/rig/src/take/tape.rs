@@ -135,17 +135,39 @@ impl SharedTape {
 struct Writer {
     tape: SharedTape,
     began: Instant,
-    now: Now,
+    heard: Arc<Hearing>,
 }
 
-/// The time of the rig's present step, nanoseconds since it began. What arrives while a step listens is of that step:
-/// a re-run, which listens at the steps' times, must hear it in the same one.
-type Now = Arc<AtomicU64>;
+/// Between which times what the rig's present step hears came, nanoseconds since it began. What arrives while a step
+/// listens is of that step, and so is what came before and was not heard by the step before: a re-run, which listens at
+/// the steps' times, must hear it in the same one.
+#[derive(Debug, Default)]
+struct Hearing {
+    since: AtomicU64,
+    now: AtomicU64,
+}
+
+impl Hearing {
+    fn set(&self, [since, now]: [Duration; 2]) {
+        let nanos = |at: Duration| u64::try_from(at.as_nanos()).unwrap_or(u64::MAX);
+        self.since.store(nanos(since), Ordering::Relaxed);
+        self.now.store(nanos(now), Ordering::Relaxed);
+    }
+
+    fn now(&self) -> Duration {
+        Duration::from_nanos(self.now.load(Ordering::Relaxed))
+    }
+
+    /// The time at which something that came at `at` counts as heard.
+    fn heard(&self, at: Duration) -> Duration {
+        let since = Duration::from_nanos(self.since.load(Ordering::Relaxed));
+        at.max(since).min(self.now())
+    }
+}
 
 impl Notes for Writer {
     fn note(&mut self, at: Instant, passed: Passed<'_>) {
-        let now = Duration::from_nanos(self.now.load(Ordering::Relaxed));
-        let at = at.since(self.began).min(now);
+        let at = self.heard.heard(at.since(self.began));
         let mut tape = self.tape.lock();
         match passed {
             Passed::Heard(bytes) => {
@@ -172,7 +194,7 @@ impl Notes for Writer {
 #[derive(Debug, Default)]
 pub(crate) struct Tapes {
     tapes: BTreeMap<String, SharedTape>,
-    now: Now,
+    heard: Arc<Hearing>,
 }
 
 /// The conversation with a device up to now, as far as a capture has it.
@@ -265,16 +287,15 @@ impl Tapes {
         self.tapes.get(device).and_then(watched).unwrap_or_default()
     }
 
-    /// Ports whose lines write on these tapes, at the rig's present step.
+    /// Ports whose lines write on these tapes what the rig's present step hears: what came between these two times.
     pub(crate) fn at<'t>(
         &'t mut self,
         ports: &'t mut dyn Ports,
         clock: &'t Arc<dyn Clock>,
         began: Instant,
-        now: Instant,
+        heard: [Instant; 2],
     ) -> TapedPorts<'t> {
-        let nanos = u64::try_from(now.since(began).as_nanos()).unwrap_or(u64::MAX);
-        self.now.store(nanos, Ordering::Relaxed);
+        self.heard.set(heard.map(|at| at.since(began)));
         TapedPorts {
             tapes: self,
             ports,
@@ -332,11 +353,10 @@ impl TapedPorts<'_> {
     fn taped(&mut self, device: &str, line: Box<dyn Transport>) -> Box<dyn Transport> {
         let tape = self.tapes.tapes.entry(device.to_owned()).or_default().clone();
         let reports = line.boundary() == Boundary::Reports;
-        let now = Arc::clone(&self.tapes.now);
-        let at = Duration::from_nanos(now.load(Ordering::Relaxed));
-        tape.lock().open(at, reports);
+        let heard = Arc::clone(&self.tapes.heard);
+        tape.lock().open(heard.now(), reports);
         let began = self.began;
-        let writer = Writer { tape, began, now };
+        let writer = Writer { tape, began, heard };
         Box::new(Tap::new(line, Arc::clone(self.clock), Box::new(writer)))
     }
 }
