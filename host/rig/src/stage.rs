@@ -114,7 +114,8 @@ impl Stage {
         };
         let answer = posing::aim(view, start, length, cursor).map_err(|error| error.to_string())?;
         self.cursor = Some(cursor);
-        self.candidates = ends(&answer, start, length);
+        self.candidates.clear();
+        self.candidates.extend(ends(&answer, start, length));
         let side = match self.side {
             Side::Near => posing::Side::Near,
             Side::Far => posing::Side::Far,
@@ -255,12 +256,10 @@ impl Stage {
 }
 
 /// Where the link's end could go: near first; one place on or outside the circle.
-fn ends(answer: &Answer, start: DVec3, length: f64) -> Vec<DVec3> {
-    let mut ends = vec![start + length * answer.near];
-    if answer.sight == Sight::Inside {
-        ends.push(start + length * answer.far);
-    }
-    ends
+fn ends(answer: &Answer, start: DVec3, length: f64) -> impl Iterator<Item = DVec3> {
+    let far = (answer.sight == Sight::Inside).then_some(answer.far);
+    let directions = std::iter::once(answer.near).chain(far);
+    directions.map(move |direction| start + length * direction)
 }
 
 #[cfg(test)]

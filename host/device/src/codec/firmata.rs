@@ -139,7 +139,8 @@ impl Firmata {
         };
         let answers = match command {
             message::FIRMWARE => {
-                self.identity = message::firmware_name(rest);
+                let name = self.identity.take().unwrap_or_default();
+                self.identity = message::firmware_name(rest, name);
                 Question::Firmware
             }
             message::CAPABILITIES => {

@@ -5,6 +5,7 @@
 
 mod address;
 mod packet;
+mod reading;
 
 use super::motors::Motors;
 use super::{Codec, Counters, Feedback, InputEvent, Outgoing};
@@ -12,7 +13,8 @@ use crate::clock::Instant;
 use address::{Addresses, Meaning};
 use device_profiles::{ControlClass, InputProfile, OutputKind};
 pub use packet::due;
-use rosc::{OscMessage, OscPacket, OscType};
+use reading::{Message, Packet};
+use rosc::OscType;
 use std::collections::BTreeMap;
 
 /// Packets inside packets that are followed.
@@ -92,26 +94,27 @@ impl Osc {
         }
     }
 
-    fn take(&mut self, packet: OscPacket, depth: usize, emit: &mut dyn FnMut(InputEvent)) {
+    /// Takes a packet; `None` is one that cannot be read.
+    fn take(&mut self, packet: Option<Packet<'_>>, depth: usize, emit: &mut dyn FnMut(InputEvent)) {
         match packet {
-            OscPacket::Message(message) => self.hear(&message, emit),
+            Some(Packet::Message(message)) => self.hear(&message, emit),
             // A bundle's parts belong to one moment. One that is for later comes later: the port keeps it.
-            OscPacket::Bundle(bundle) if depth < DEPTH_MAX => {
-                for part in bundle.content {
+            Some(Packet::Bundle(parts)) if depth < DEPTH_MAX => {
+                for part in parts {
                     self.take(part, depth + 1, emit);
                 }
             }
-            OscPacket::Bundle(_) => self.counters.rejected += 1,
+            Some(Packet::Bundle(_)) | None => self.counters.rejected += 1,
         }
     }
 
-    fn hear(&mut self, message: &OscMessage, emit: &mut dyn FnMut(InputEvent)) {
-        let Some(meanings) = self.addresses.of(&message.addr) else {
+    fn hear(&mut self, message: &Message<'_>, emit: &mut dyn FnMut(InputEvent)) {
+        let Some(meanings) = self.addresses.of(message.address) else {
             self.counters.unknown += 1;
             return;
         };
         self.counters.reports += 1;
-        let mut values = message.args.iter().map(number);
+        let mut values = message.numbers();
         for &meaning in meanings {
             let Some(Some(value)) = values.next() else {
                 self.counters.rejected += 1;
@@ -173,19 +176,6 @@ impl Osc {
     }
 }
 
-/// What a number is, of whatever type it comes as.
-fn number(argument: &OscType) -> Option<f64> {
-    let value = match *argument {
-        OscType::Float(value) => f64::from(value),
-        OscType::Double(value) => value,
-        OscType::Int(value) => f64::from(value),
-        OscType::Long(value) => value as f64,
-        OscType::Bool(value) => f64::from(u8::from(value)),
-        _ => return None,
-    };
-    value.is_finite().then_some(value)
-}
-
 fn edge(held: &mut [bool], control: u16, now: bool, say: impl FnOnce(bool)) {
     if let Some(held) = held.get_mut(usize::from(control))
         && *held != now
@@ -206,10 +196,7 @@ impl Codec for Osc {
 
     /// One call is one packet.
     fn decode(&mut self, bytes: &[u8], emit: &mut dyn FnMut(InputEvent)) {
-        match rosc::decoder::decode_udp(bytes) {
-            Ok((_, packet)) => self.take(packet, 0, emit),
-            Err(_) => self.counters.rejected += 1,
-        }
+        self.take(reading::packet(bytes), 0, emit);
     }
 
     fn advance(&mut self, now: Instant, out: &mut Outgoing, emit: &mut dyn FnMut(InputEvent)) {

@@ -153,7 +153,7 @@ impl Rig {
     }
 
     fn record_step(&mut self, commands: &[Command]) {
-        let posed = self.posed();
+        let posed = self.takes.recording.as_ref().and_then(|_| self.posed());
         let now = self.now.since(self.began);
         let Some(recording) = &mut self.takes.recording else {
             return;

@@ -20,29 +20,36 @@ const PIN_END: u8 = 0x7F;
 /// Everything as after switching on.
 const RESET: u8 = 0xFF;
 
-/// Pins and channels; empty where the board does not say.
+/// Pins and channels; empty where the board does not say. What it says again goes where it went before.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Board {
-    /// By pin: modes with their resolution.
-    pins: Vec<Vec<[u8; 2]>>,
+    /// Modes with their resolution, of one pin after another.
+    modes: Vec<[u8; 2]>,
+    /// By pin: where its modes end.
+    ends: Vec<usize>,
     /// By pin: analog channel.
     channels: Vec<u8>,
 }
 
 impl Board {
     pub(super) fn learn_capabilities(&mut self, rest: &[u8]) {
-        let pin = |modes: &[u8]| {
+        self.modes.clear();
+        self.ends.clear();
+        // Every pin ends with the mark; what is behind the last is none.
+        for pin in rest.split_inclusive(|&byte| byte == PIN_END) {
+            let Some((&PIN_END, modes)) = pin.split_last() else {
+                return;
+            };
             let pairs = modes.chunks_exact(2);
-            pairs.filter_map(|pair| pair.try_into().ok()).collect()
-        };
-        let mut pins: Vec<_> = rest.split(|&byte| byte == PIN_END).map(pin).collect();
-        // Every pin ends with the mark, so behind the last there is none.
-        pins.pop();
-        self.pins = pins;
+            self.modes
+                .extend(pairs.filter_map(|pair| <[u8; 2]>::try_from(pair).ok()));
+            self.ends.push(self.modes.len());
+        }
     }
 
     pub(super) fn learn_mapping(&mut self, rest: &[u8]) {
-        self.channels = rest.to_vec();
+        self.channels.clear();
+        self.channels.extend_from_slice(rest);
     }
 
     pub(super) fn channel_of(&self, pin: u8) -> Option<u8> {
@@ -57,11 +64,14 @@ impl Board {
 
     /// Whether a pin can be used so; a board that has not said can do everything.
     pub(super) fn can(&self, pin: u8, mode: u8) -> bool {
-        self.pins.is_empty() || self.resolution(pin, mode).is_some()
+        self.ends.is_empty() || self.resolution(pin, mode).is_some()
     }
 
     fn resolution(&self, pin: u8, mode: u8) -> Option<u8> {
-        let modes = self.pins.get(usize::from(pin))?;
+        let pin = usize::from(pin);
+        let end = *self.ends.get(pin)?;
+        let start = pin.checked_sub(1).and_then(|before| self.ends.get(before));
+        let modes = self.modes.get(start.copied().unwrap_or(0)..end)?;
         modes.iter().find(|[of, _]| *of == mode).map(|[_, bits]| *bits)
     }
 

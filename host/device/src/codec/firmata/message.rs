@@ -1,5 +1,7 @@
 //! Messages out of a stream: MIDI's shape with another meaning, and sysex.
 
+use std::fmt::Write as _;
+
 /// Begins a long message.
 pub(super) const SYSEX: u8 = 0xF0;
 /// Ends it.
@@ -134,20 +136,22 @@ fn short(status: u8, [low, high]: [u8; 2]) -> Message {
     }
 }
 
-/// Major, minor, and a name in halves of seven bits.
-pub(super) fn firmware_name(rest: &[u8]) -> Option<String> {
-    let (version, name) = rest.split_at_checked(2)?;
+/// Major, minor, and a name in halves of seven bits; written over what `name` was.
+pub(super) fn firmware_name(rest: &[u8], mut name: String) -> Option<String> {
+    let (version, halves) = rest.split_at_checked(2)?;
     let [major, minor] = version else {
         return None;
     };
-    let name: String = name
-        .chunks_exact(2)
-        .filter_map(|pair| match pair {
-            [low, high] => char::from_u32(u32::from(*high) << 7 | u32::from(*low)),
-            _ => None,
-        })
-        .collect();
-    Some(format!("{name} {major}.{minor}").trim().to_owned())
+    name.clear();
+    name.extend(halves.chunks_exact(2).filter_map(|pair| match pair {
+        [low, high] => char::from_u32(u32::from(*high) << 7 | u32::from(*low)),
+        _ => None,
+    }));
+    // Writing to a string cannot fail.
+    let _ = write!(name, " {major}.{minor}");
+    let blank = name.len() - name.trim_start().len();
+    name.drain(..blank);
+    Some(name)
 }
 
 /// A pin and its value, in as many groups of seven bits as it needs.

@@ -84,6 +84,22 @@ const SET_UP: &[u8] = &[
     0xF5, 13, 0, 0xE5, 0, 0, // both dark
 ];
 
+/// A board that says all of itself again, and goes on.
+#[test]
+fn hearing_asks_for_no_memory() {
+    let mut codec = Firmata::listening(settings());
+    let firmware = [
+        0xF0, 0x79, 2, 5, b' ', 0, b'D', 0, b'e', 0, b's', 0, b'k', 0, 0xF7,
+    ];
+    let turned = [0xE0, 0x10, 0x02, 0xE2, 0x20, 0x01];
+    let said = [&firmware[..], &capabilities(10), &mapping(), &turned].concat();
+    let mut heard = 0;
+    codec.decode(&said, &mut |_| heard += 1);
+    assert_eq!((codec.identity(), heard), (Some("Desk 2.5"), 2));
+    let counted = allocation_counter::measure(|| codec.decode(&said, &mut |_| heard += 1));
+    assert_eq!((counted.count_total, codec.identity()), (0, Some("Desk 2.5")));
+}
+
 #[test]
 fn a_board_that_announces_itself_is_asked_and_set_up() {
     let mut trial = Trial::new(Firmata::new(settings()));

@@ -3,7 +3,7 @@
 use super::*;
 use device_profiles::Profiles;
 use proptest::prelude::*;
-use rosc::{OscBundle, OscTime};
+use rosc::{OscBundle, OscMessage, OscPacket, OscTime};
 use std::time::Duration;
 
 fn at_ms(ms: u64) -> Instant {
@@ -194,6 +194,55 @@ fn bundles_in_bundles_are_taken_in_order_and_not_without_end() {
     let deep = (0..20).fold(fader(0.5), |inner, _| bundle(vec![inner]));
     let bytes = rosc::encoder::encode(&deep).expect("encodes");
     assert_eq!(hear(&mut codec, &bytes), []);
+    assert_eq!(codec.counters().rejected, 1);
+}
+
+#[test]
+fn hearing_asks_for_no_memory() {
+    let mut codec = started(&desk());
+    let bundle = OscPacket::Bundle(OscBundle {
+        timetag: OscTime::from((0, 1)),
+        content: vec![
+            packet("/1/fader1", vec![OscType::Float(0.25)]),
+            packet("/1/toggle1", vec![OscType::Int(1)]),
+            packet("/9/nobody", vec![OscType::String("a longer text".into())]),
+        ],
+    });
+    let bytes = rosc::encoder::encode(&bundle).expect("encodes");
+    let mut heard = 0;
+    codec.decode(&bytes, &mut |_| heard += 1);
+    assert_eq!(heard, 2);
+    let counted = allocation_counter::measure(|| codec.decode(&bytes, &mut |_| heard += 1));
+    assert_eq!((counted.count_total, heard), (0, 3));
+}
+
+/// Of a bundle everything before what cannot be read.
+#[test]
+fn a_bundle_that_breaks_off_is_heard_up_to_there() {
+    let mut codec = started(&desk());
+    let first = message("/1/fader1", vec![OscType::Float(0.5)]);
+    let length = (first.len() as u32).to_be_bytes();
+    let bytes = [
+        b"#bundle\0\0\0\0\0\0\0\0\x01",
+        &length[..],
+        &first,
+        &length,
+        &first[..8],
+    ]
+    .concat();
+    assert_eq!(hear(&mut codec, &bytes), [axis(0, 500)]);
+    assert_eq!((codec.counters().reports, codec.counters().rejected), (1, 1));
+}
+
+/// As deep as the longest datagram goes: whoever sends it uses up no stack.
+#[test]
+fn bundles_of_thousands_of_bundles_are_rejected() {
+    let mut codec = started(&desk());
+    let deep = (0..3000).fold(message("/1/fader1", vec![OscType::Float(0.5)]), |inner, _| {
+        let length = (inner.len() as u32).to_be_bytes();
+        [b"#bundle\0\0\0\0\0\0\0\0\x01", &length[..], &inner].concat()
+    });
+    assert_eq!(hear(&mut codec, &deep), []);
     assert_eq!(codec.counters().rejected, 1);
 }
 
