@@ -5,6 +5,7 @@
 use crate::clock::Instant;
 use crate::codec::Outgoing;
 use device_profiles::{HexBytes, InitAction, InitStep, InputProfile};
+use std::fmt::Write as _;
 use std::time::Duration;
 
 /// How long an answer may take; the controllers known here answer within a few milliseconds. Ours.
@@ -89,8 +90,14 @@ impl Waking {
     pub(super) fn answered(&mut self, bytes: &[u8]) {
         // Identity reply: 7E, channel, 06 02, maker (one byte, or 00 and two), family, member, version.
         if let [0x7E, _, 0x06, 0x02, rest @ ..] = bytes {
-            let hex: Vec<String> = rest.iter().map(|byte| format!("{byte:02x}")).collect();
-            self.identity = Some(hex.join(" "));
+            // A controller may say it again and again: into the memory that is there.
+            let identity = self.identity.get_or_insert_with(String::new);
+            identity.clear();
+            for byte in rest {
+                let gap = if identity.is_empty() { "" } else { " " };
+                // Writing into text cannot fail.
+                let _ = write!(identity, "{gap}{byte:02x}");
+            }
         }
         if let Phase::Asked { step, .. } = self.phase {
             let expect = self.steps.get(step).and_then(|doing| doing.expect.as_deref());
