@@ -237,6 +237,18 @@ impl Bench {
         command.output().expect("runs")
     }
 
+    /// Waits until so many events stand in a file that is being written; a busy machine needs longer for it.
+    fn wait_for_events(&self, name: &str, events_min: usize) {
+        for _ in 0..600 {
+            let text = fs::read_to_string(self.path(name)).unwrap_or_default();
+            if text.matches("event  dial").count() >= events_min {
+                return;
+            }
+            pause(0.1);
+        }
+        panic!("after a minute {name} has not {events_min} events");
+    }
+
     /// The file plays back as it was, and so many events at least are in it.
     fn check_exchange(&self, name: &str, events_min: usize) -> String {
         let played = self.run(&format!("replay {name} --json"));
@@ -282,7 +294,7 @@ fn ctrl_c_ends_a_capture_and_the_file_is_whole() {
     let bench = Bench::new();
     let mut command = dialrig(&format!("capture {} --out box.txt", bench.device.address));
     let child = command.current_dir(bench.folder.path()).spawn().expect("starts");
-    pause(2.0);
+    bench.wait_for_events("box.txt.part", 25);
     interrupt(&child);
     let output = child.wait_with_output().expect("ends");
     assert_eq!(
@@ -299,7 +311,7 @@ fn a_device_that_goes_in_the_middle_is_exit_3_and_what_came_is_kept() {
     let mut bench = Bench::new();
     let mut command = dialrig(&format!("capture {} --out box.txt", bench.device.address));
     let child = command.current_dir(bench.folder.path()).spawn().expect("starts");
-    pause(2.0);
+    bench.wait_for_events("box.txt.part", 25);
     bench.device.kill();
     let output = child.wait_with_output().expect("it ends by itself");
     let said = String::from_utf8_lossy(&output.stderr);
@@ -313,7 +325,7 @@ fn of_a_capture_that_is_killed_everything_up_to_then_can_be_read() {
     let bench = Bench::new();
     let mut command = dialrig(&format!("capture {} --out box.txt", bench.device.address));
     let mut child = command.current_dir(bench.folder.path()).spawn().expect("starts");
-    pause(2.0);
+    bench.wait_for_events("box.txt.part", 25);
     child.kill().expect("it runs");
     child.wait().expect("it ran");
     assert!(!bench.path("box.txt").exists());
@@ -374,7 +386,7 @@ fn a_device_that_goes_while_it_is_recorded_is_exit_3_and_the_take_is_kept() {
     let mut bench = Bench::new();
     let show = root().join("shows/salute");
     let args = format!(
-        "record {} --device {} --take wave --secs 4 --out mine",
+        "record {} --device {} --take wave --secs 6 --out mine",
         show.display(),
         bench.device.address
     );
@@ -382,7 +394,7 @@ fn a_device_that_goes_while_it_is_recorded_is_exit_3_and_the_take_is_kept() {
         .current_dir(bench.folder.path())
         .spawn()
         .expect("starts");
-    pause(2.5);
+    pause(3.5);
     bench.device.kill();
     let output = child.wait_with_output().expect("ends");
     let said = String::from_utf8_lossy(&output.stderr);

@@ -88,12 +88,15 @@ fn poll_for(fd: BorrowedFd<'_>, what: PollFlags, limit: Duration) -> bool {
     poll_all(&mut [PollFd::from_borrowed_fd(fd, what)], limit)
 }
 
-/// Whether one of several became ready within `limit`.
+/// Whether one of several became ready within `limit`, or a signal came: whoever waits looks again then, instead of
+/// sleeping through what arrives meanwhile.
 pub(super) fn poll_all(watched: &mut [PollFd<'_>], limit: Duration) -> bool {
     let limit = Timespec {
         tv_sec: limit.as_secs().try_into().unwrap_or(i64::MAX),
         tv_nsec: limit.subsec_nanos().into(),
     };
-    // An interrupted poll reads as "nothing yet": every caller looks again.
-    poll(watched, Some(&limit)).is_ok_and(|ready| ready > 0)
+    match poll(watched, Some(&limit)) {
+        Ok(ready) => ready > 0,
+        Err(error) => error == Errno::INTR,
+    }
 }
