@@ -114,6 +114,7 @@ impl Clock for MonotonicClock {
     }
 
     fn time_of_day(&self) -> Option<Duration> {
+        // The one place where the time of day comes from outside, for what others dated by it.
         #[allow(clippy::disallowed_methods)]
         let now = std::time::SystemTime::now();
         now.duration_since(std::time::UNIX_EPOCH).ok()

@@ -18,7 +18,7 @@ pub(super) struct Held {
 }
 
 impl Held {
-    /// Keeps a packet until `due`. False: there is no room, and it is for now.
+    /// Keeps a packet until `due`. False: there is no room, and it is to be heard at once.
     pub(super) fn keep(&mut self, due: Instant, packet: &[u8]) -> bool {
         let room = self.packets.len() < HELD_MAX;
         if room {
